@@ -13,13 +13,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
+#include <variant>
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
+#include "certify/request/solve_sparse.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/over_intervals.h"
@@ -43,16 +47,58 @@ namespace py = pybind11;
 
 const std::string kSource = "Problem";  // in errors of a problem
 
-// A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at.
-struct PythonProblem {
-  ProblemFile file;
-  Eigen::MatrixXd A;
-  Eigen::VectorXd b;
-
-  explicit PythonProblem(ProblemFile of) : file(std::move(of)) {
-    A = file.problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
-    b = file.problem.b.unaryExpr([](const Rational& x) { return ToDouble(x); });
+// A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at. What stays sparse
+// is kept beside its dense form, which is made when it is first asked for, by a caller that holds the lock.
+class PythonProblem {
+ public:
+  explicit PythonProblem(std::variant<ProblemFile, SparseProblem> of) {
+    if (auto* file = std::get_if<ProblemFile>(&of)) {
+      TakeDense(std::move(*file));
+    } else {
+      sparse_ = std::get<SparseProblem>(std::move(of));
+    }
+    b_ = All().b.unaryExpr([](const Rational& x) { return ToDouble(x); });
   }
+
+  // Null where all of A is there from the start.
+  const SparseProblem* sparse() const { return sparse_ ? &*sparse_ : nullptr; }
+  // InputError above kMostDenseRows.
+  const ProblemFile& file() {
+    if (!dense_) TakeDense(ToDense(*sparse_, kSource));
+    return *dense_;
+  }
+  const ExactProblem& problem() { return file().problem; }
+  const Eigen::MatrixXd& A() {
+    file();
+    return A_;
+  }
+  const Eigen::VectorXd& b() const { return b_; }
+
+  struct Parts {
+    const std::string& name;
+    int dimension;
+    const std::vector<Contact<Rational>>& contacts;
+    const ExactProblem::Vector& b;
+    const std::optional<ExactFactors>& factors;
+  };
+  // All but A.
+  Parts All() const {
+    if (sparse_) return {sparse_->name, sparse_->dimension, sparse_->contacts, sparse_->b, sparse_->factors};
+    const ExactProblem& problem = dense_->problem;
+    return {dense_->name, problem.dimension, problem.contacts, problem.b, dense_->factors};
+  }
+  std::string Text() const { return sparse_ ? Print(*sparse_) : Print(*dense_); }
+
+ private:
+  void TakeDense(ProblemFile file) {
+    dense_ = std::move(file);
+    A_ = dense_->problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
+  }
+
+  std::optional<SparseProblem> sparse_;
+  std::optional<ProblemFile> dense_;
+  Eigen::MatrixXd A_;
+  Eigen::VectorXd b_;
 };
 
 py::object ToPython(const Json& json) {
@@ -182,7 +228,7 @@ PythonProblem FromNumbers(const py::object& A, const py::object& b, const std::v
   const int rows = RowCount(problem.contacts, dimension);
   problem.A = ReadA(A, rows);
   problem.b = ReadB(b, rows);
-  return PythonProblem({name, std::move(problem), {}, {}, {}});
+  return PythonProblem(ProblemFile{name, std::move(problem), {}, {}, {}});
 }
 
 // The memory is the problem's: it lives as long as the array does, and is not written to.
@@ -214,7 +260,7 @@ void SetNumbers(auto& options, const Numbers& numbers) {
   });
 }
 
-py::object SolveProblem(const PythonProblem& problem, const std::string& method, const std::string& arithmetic,
+py::object SolveProblem(PythonProblem& problem, const std::string& method, const std::string& arithmetic,
                         const std::string& policy, const std::string& law, int sides, double residual,
                         double seconds, const Numbers& numbers) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
@@ -224,10 +270,19 @@ py::object SolveProblem(const PythonProblem& problem, const std::string& method,
   wanted.options.sides = sides;
   SetNumbers(wanted.options.limits, numbers);
   SetNumbers(wanted.options.tolerances, numbers);
-  SolveRequest request = RequestOf(wanted, problem.file.problem, kSource);
+  if (problem.sparse() != nullptr && AsksForDense(wanted, *problem.sparse()).empty()) {
+    const SparseProblem& sparse = *problem.sparse();
+    return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
+      wanted.options.limits.stop = stop;
+      return SolutionToJson({SolveSparse(sparse, wanted.options, wanted.method)}, sparse.dimension);
+    }));
+  }
+  const ProblemFile& file = problem.file();
+  SolveRequest request = RequestOf(wanted, file.problem, kSource);
+  request.factors = file.factors ? &*file.factors : nullptr;
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
-    return SolutionToJson(SolveAsked(problem.file.problem, request, kSource), problem.file.problem.dimension);
+    return SolutionToJson(SolveAsked(file.problem, request, kSource), file.problem.dimension);
   }));
 }
 
@@ -238,20 +293,21 @@ struct Ends {
   std::map<std::string, std::vector<std::int64_t>> counters;  // 0 where a run has none of this name
 };
 
-py::tuple SolveProblems(const std::vector<const PythonProblem*>& problems, const std::string& method,
+py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::string& method,
                         const std::string& arithmetic, const std::string& policy, const std::string& law,
                         int sides, const Numbers& numbers) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
   wanted.options.sides = sides;
   SetNumbers(wanted.options.limits, numbers);
+  for (PythonProblem* problem : problems) problem->file();
   const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
     Ends all;
-    for (const PythonProblem* problem : problems) {
+    for (PythonProblem* problem : problems) {
       if (*stop) break;
-      SolveRequest request = RequestOf(wanted, problem->file.problem, kSource);
+      SolveRequest request = RequestOf(wanted, problem->problem(), kSource);
       request.options.limits.stop = stop;
       const Stopwatch watch;
-      const Solution solution = SolveAsked(problem->file.problem, request, kSource);
+      const Solution solution = SolveAsked(problem->problem(), request, kSource);
       all.seconds.push_back(watch.Seconds());
       all.outcomes.emplace_back(Name(solution.outcome()));
       for (const Counter& counter :
@@ -294,54 +350,56 @@ Wanted WantedPath(const std::string& policy, const std::string& method, const st
   return wanted;
 }
 
-py::object ReplayProblem(const PythonProblem& problem, const std::string& policy, const std::string& method,
+py::object ReplayProblem(PythonProblem& problem, const std::string& policy, const std::string& method,
                          const std::string& arithmetic, int sides, const Numbers& numbers) {
   const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
-  SolveRequest request = PathRequestOf(wanted, problem.file.problem, kSource);
+  SolveRequest request = PathRequestOf(wanted, problem.problem(), kSource);
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
-    const Solution solution = SolveAsked(problem.file.problem, request, kSource);
-    Json json = ReplayToJson({method, policy, wanted.options.limits}, problem.file, solution,
-                             Narrate(method, problem.file, solution, {.vectors = true}), true);
-    const auto proved = OverIntervals(problem.file.problem, request, solution.outcome());
+    const Solution solution = SolveAsked(problem.problem(), request, kSource);
+    Json json = ReplayToJson({method, policy, wanted.options.limits}, problem.file(), solution,
+                             Narrate(method, problem.file(), solution, {.vectors = true}), true);
+    const auto proved = OverIntervals(problem.problem(), request, solution.outcome());
     if (proved) json["over_intervals"] = EndToJson(*proved);
     return json;
   }));
 }
 
 // By the name of a policy how the published algorithm ends.
-py::object EndsOfProblem(const PythonProblem& problem, const std::string& arithmetic, int sides,
+py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, int sides,
                          const Numbers& numbers) {
   Wanted wanted = WantedPath("paper", "baraff", arithmetic, sides, numbers);
+  problem.file();
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.options.limits.stop = stop;
-    return Json(OutcomesOf(wanted, problem.file.problem, kSource));
+    return Json(OutcomesOf(wanted, problem.problem(), kSource));
   }));
 }
 
 // ---- Certificates ----
 
 // The text of the certificate; None where nothing that was run shows the claim or its negation.
-std::optional<std::string> CertifyProblem(const PythonProblem& problem, const std::string& claim,
+std::optional<std::string> CertifyProblem(PythonProblem& problem, const std::string& claim,
                                           const std::string& policy, const std::string& law,
                                           const Numbers& numbers) {
   WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
+  wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
   const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;
     EnumerationOptions enumeration;
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
-    return CertificateOf(wanted, problem.file.problem, kSource, enumeration);
+    return CertificateOf(wanted, problem.problem(), kSource, enumeration);
   });
   if (!certificate.is_object()) return std::nullopt;
   return JsonText(certificate, 1) + "\n";
 }
 
 // (accepted, claim, reason).
-std::tuple<bool, std::string, std::string> CheckForProblem(const PythonProblem& problem,
-                                                           const std::string& text) {
+std::tuple<bool, std::string, std::string> CheckForProblem(PythonProblem& problem, const std::string& text) {
+  const ExactProblem& exact = problem.problem();
   const py::gil_scoped_release released;
-  const CheckReport report = CheckText(text, "certificate", ProblemDigest(problem.file.problem));
+  const CheckReport report = CheckText(text, "certificate", ProblemDigest(exact));
   return {report.accepted, report.claim, report.reason};
 }
 
@@ -351,13 +409,37 @@ std::vector<std::string> Texts(const auto& numbers) {
   return texts;
 }
 
-std::vector<std::vector<std::string>> ExactA(const PythonProblem& problem) {
+std::vector<std::vector<std::string>> ExactA(PythonProblem& problem) {
   std::vector<std::vector<std::string>> rows;
-  for (const auto& row : problem.file.problem.A.rowwise()) {
+  for (const auto& row : problem.problem().A.rowwise()) {
     std::vector<std::string>& texts = rows.emplace_back();
     for (int j = 0; j < row.size(); ++j) texts.push_back(ToString(row(j)));
   }
   return rows;
+}
+
+// Rows, columns and numbers, and the shape.
+template <class Sparse>
+py::tuple Triplets(const Sparse& matrix) {
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+  for (int k = 0; k < matrix.outerSize(); ++k) {
+    for (typename Sparse::InnerIterator of(matrix, k); of; ++of) {
+      rows.push_back(static_cast<int>(of.row()));
+      columns.push_back(static_cast<int>(of.col()));
+      values.push_back(of.value());
+    }
+  }
+  return py::make_tuple(py::array(py::cast(rows)), py::array(py::cast(columns)), py::array(py::cast(values)),
+                        py::make_tuple(matrix.rows(), matrix.cols()));
+}
+
+// J, M, w, c at their nearest doubles; None where the problem came without.
+py::object FactorsOf(const PythonProblem& problem) {
+  const auto& factors = problem.All().factors;
+  if (!factors) return py::none();
+  const FactoredProblem<double> rounded = InDoubles(*factors);
+  return py::make_tuple(Triplets(rounded.A.J()), Triplets(rounded.M), rounded.w, rounded.c);
 }
 
 }  // namespace
@@ -377,36 +459,37 @@ PYBIND11_MODULE(_stiction, module) {
   py::class_<PythonProblem>(module, "Problem")
       .def_static("from_numbers", &FromNumbers)
       .def_static("parse", [](const std::string& text,
-                              const std::string& source) { return PythonProblem(ParseProblem(text, source)); })
-      .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file)); })
-      .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, Print(p.file)); })
-      .def("text", [](const PythonProblem& p) { return Print(p.file); })
-      .def("digest", [](const PythonProblem& p) { return ProblemDigest(p.file.problem); })
-      .def_property_readonly("name", [](const PythonProblem& p) { return p.file.name; })
-      .def_property_readonly("dimension", [](const PythonProblem& p) { return p.file.problem.dimension; })
-      .def_property_readonly("A", [](const py::object& p) { return View(p.cast<PythonProblem&>().A, p); })
-      .def_property_readonly("b", [](const py::object& p) { return View(p.cast<PythonProblem&>().b, p); })
+                              const std::string& source) { return PythonProblem(ParseAnySize(text, source)); })
+      .def_static("read", [](const std::string& file) { return PythonProblem(ReadAnySize(file)); })
+      .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, p.Text()); })
+      .def("text", &PythonProblem::Text)
+      .def("digest", [](PythonProblem& p) { return ProblemDigest(p.problem()); })
+      .def_property_readonly("name", [](const PythonProblem& p) { return p.All().name; })
+      .def_property_readonly("dimension", [](const PythonProblem& p) { return p.All().dimension; })
+      .def_property_readonly("A", [](const py::object& p) { return View(p.cast<PythonProblem&>().A(), p); })
+      .def_property_readonly("b", [](const py::object& p) { return View(p.cast<PythonProblem&>().b(), p); })
+      .def("factors", &FactorsOf)
       .def("exact_A", &ExactA)
-      .def("exact_b", [](const PythonProblem& p) { return Texts(p.file.problem.b); })
+      .def("exact_b", [](const PythonProblem& p) { return Texts(p.All().b); })
       .def("exact_mu",
            [](const PythonProblem& p) {
              std::vector<std::string> texts;
-             for (const auto& contact : p.file.problem.contacts) texts.push_back(ToString(contact.mu));
+             for (const auto& contact : p.All().contacts) texts.push_back(ToString(contact.mu));
              return texts;
            })
       .def("exact_slips",
            [](const PythonProblem& p) {
              std::vector<std::vector<std::string>> texts;
-             for (const auto& contact : p.file.problem.contacts) {
+             for (const auto& contact : p.All().contacts) {
                auto& slip = texts.emplace_back();
                if (contact.kind != ContactKind::kSliding) continue;
-               for (int k = 0; k + 1 < p.file.problem.dimension; ++k) slip.push_back(ToString(contact.slip[k]));
+               for (int k = 0; k + 1 < p.All().dimension; ++k) slip.push_back(ToString(contact.slip[k]));
              }
              return texts;
            })
       .def("kinds", [](const PythonProblem& p) {
         std::vector<std::string> kinds;
-        for (const auto& contact : p.file.problem.contacts) kinds.emplace_back(Name(contact.kind));
+        for (const auto& contact : p.All().contacts) kinds.emplace_back(Name(contact.kind));
         return kinds;
       });
   module.def("solve", &SolveProblem);

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
+from ._factors import document, sparse
 from ._given import Path, doubles, exact_text, integer, is_one, listed, path_text, require_text, shortened, unmasked
 
 
@@ -25,21 +26,37 @@ class Problem:
     of the others None. Arrays of doubles are read where they lie, those of integers and of shorter floating point
     after one conversion, and each double is the rational that it is; all else is taken exactly, number by number. A
     problem holds rationals. A need not be symmetric, nor b in its range: `certify` says whether they are.
+
+    In place of A and b may be given, by their names, J (rows x velocities), M, w (of each velocity) and c (of each row,
+    by default zero): A = J inv(M) J', b = J w + c. J and M are matrices of scipy.sparse or of numpy; M may also be its
+    diagonal, or a list of its blocks along it, and is symmetric and positive definite. Then A is not formed unless it is
+    asked for, and there may be as many rows as memory holds.
     """
 
-    def __init__(self, A: Any, b: Any, mu: Any, kinds: Sequence[str] | None = None, dimension: int = 2,
-                 name: str = "problem", slips: Sequence[Any] | None = None) -> None:
+    def __init__(self, A: Any = None, b: Any = None, mu: Any = None, kinds: Sequence[str] | None = None,
+                 dimension: int = 2, name: str = "problem", slips: Sequence[Any] | None = None, *, J: Any = None,
+                 M: Any = None, w: Any = None, c: Any = None) -> None:
         require_text(name=name)
         if integer("dimension", dimension) not in (2, 3):
             raise ValueError(f"Problem: dimension: found {dimension}, expected 2 or 3")
-        A, b = (unmasked(x, name) if isinstance(x, np.ndarray) else np.array(x, dtype=object)
-                for x, name in ((A, "A"), (b, "b")))
-        if A.ndim != 2 or b.ndim != 1:
-            raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
+        is_factored = J is not None
+        for of, missing in (("A", not is_factored and A is None), ("b", not is_factored and b is None),
+                            ("mu", mu is None), ("M", is_factored and M is None), ("w", is_factored and w is None)):
+            if missing:
+                raise TypeError(f"Problem: {of}: found nothing, expected {'J, M, w' if is_factored else 'A, b'} and mu")
+        for of, beside in (("A", A), ("b", b)) if is_factored else (("M", M), ("w", w), ("c", c)):
+            if beside is not None:
+                raise TypeError(f"Problem: {of}: found beside {'J' if is_factored else 'A'}, expected A and b, or J, M, w")
+        if not is_factored:
+            A, b = (unmasked(x, name) if isinstance(x, np.ndarray) else np.array(x, dtype=object)
+                    for x, name in ((A, "A"), (b, "b")))
+            if A.ndim != 2 or b.ndim != 1:
+                raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
+        row_count = (J.shape[0] if hasattr(J, "shape") else len(J)) if is_factored else len(b)
         if isinstance(kinds, str):
             raise TypeError(f"kinds: found {kinds!r}, expected a sequence of names, one for each contact")
         if is_one(mu):
-            count = len(kinds) if kinds is not None else len(b) // dimension
+            count = len(kinds) if kinds is not None else row_count // dimension
             mu = [mu] * count
         mu = listed(mu, "mu")
         kinds = ["static"] * len(mu) if kinds is None else list(kinds)
@@ -54,6 +71,9 @@ class Problem:
                       for i, slip in enumerate(slips)]
         contacts = [(kind, exact_text(x, f"Problem: mu[{i}]"), direction)
                     for i, (kind, x, direction) in enumerate(zip(kinds, mu, directions))]
+        if is_factored:
+            self._problem = _stiction.Problem.parse(document(J, M, w, c, contacts, dimension, name), "Problem")
+            return
         exact_A, exact_b = doubles(A), doubles(b)
         self._problem = _stiction.Problem.from_numbers(
             _texts(A) if exact_A is None else exact_A,
@@ -79,6 +99,28 @@ class Problem:
     def b(self) -> NDArray[np.float64]:
         """Likewise."""
         return self._problem.b
+
+    @property
+    def J(self) -> Any:
+        """Of a problem in factors, at its nearest doubles: a csr_matrix of scipy, without scipy its entries by the same
+        names (row, col, data, shape); otherwise None. Likewise M, w and c, of which the last two are arrays."""
+        factors = self._problem.factors()
+        return None if factors is None else sparse(*factors[0])
+
+    @property
+    def M(self) -> Any:
+        factors = self._problem.factors()
+        return None if factors is None else sparse(*factors[1])
+
+    @property
+    def w(self) -> NDArray[np.float64] | None:
+        factors = self._problem.factors()
+        return None if factors is None else factors[2]
+
+    @property
+    def c(self) -> NDArray[np.float64] | None:
+        factors = self._problem.factors()
+        return None if factors is None else factors[3]
 
     @property
     def exact_A(self) -> list[list[Fraction]]:
