@@ -78,8 +78,8 @@ const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandL
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
       .Details(std::string(kFileDetails) +
-               ". Siconos: LCP, FC2D, FC3D; FCLIB: local, and global ones condensed. Other kinds (global .dat, "
-               "rolling, relay, MLCP, ...) are refused by their name");
+               ". Siconos: LCP, MLCP, friction, local and global; FCLIB: local and global. Other kinds "
+               "(rolling, relay, ...) are refused by their name");
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
       .OneOf(FormatNames());

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <utility>
 
+#include "corpus/formats/condense.h"
 #include "corpus/printable.h"
 #include "solver/problem/check.h"
 
@@ -312,7 +312,7 @@ class FclibReader {
     }
   }
 
-  // Elimination of v from [M, -(H G), -f; (H G)', 0, (w, b)].
+  // M v = [H G] (r, l) + f, (u, 0) = [H G]'v + (w, b).
   void Global() {
     const Matrix M = ReadMatrix("M"), H = ReadMatrix("H");
     RequireShape("M", M, M.rows, M.rows);
@@ -322,62 +322,24 @@ class FclibReader {
       G = ReadMatrix("G");
       RequireShape("G", G, M.rows, G.columns);
     }
-    const int rows = H.columns + G.columns, first = M.rows, last = first + rows;
+    GlobalEquations equations;
     const ExactProblem::Vector b = Equations("b", G.columns);
     MakeContacts("H", H.columns, G.columns);
-    problem_.b.head(H.columns) = Vector("w", H.columns);
-    problem_.b.tail(G.columns) = b;
-    const ExactProblem::Vector f = Vector("f", M.rows);
-
-    std::vector<SparseRow> K(last);
-    for (const auto& [i, j, value] : M.entries) K[i][j] += Rational(value);
-    const auto couple = [&K](const Matrix& B, int offset) {
-      for (const auto& [i, j, value] : B.entries) {
-        K[i][offset + j] -= Rational(value);
-        K[offset + j][i] += Rational(value);
-      }
-    };
-    couple(H, first);
-    couple(G, first + H.columns);
-    for (int i = 0; i < first; ++i) K[i][last] = -f[i];
-    Eliminate(K, first);
-    for (int i = 0; i < rows; ++i) {
-      for (const auto& [j, value] : K[first + i]) {
-        if (j == last) problem_.b[i] += value;
-        if (first <= j && j < last) problem_.A[{i, j - first}] = value;
-      }
-    }
-    problem_.origin["condensed"] = "A = [H G]' inv(M) [H G], over rationals";
+    equations.w.resize(H.columns + G.columns);
+    equations.w.head(H.columns) = Vector("w", H.columns);
+    equations.w.tail(G.columns) = b;
+    equations.f = Vector("f", M.rows);
+    Add(M, 0, equations.M);
+    Add(H, 0, equations.B);
+    Add(G, H.columns, equations.B);
+    if (const auto row = Condense(equations, problem_))
+      Refuse(Path("M"), fmt::format("a zero pivot in row {}", *row), "a positive definite matrix");
   }
 
-  using SparseRow = std::map<int, Rational>;
-
-  // Makes the first `count` columns of all later rows zero, by the diagonal pivots of the first rows.
-  void Eliminate(std::vector<SparseRow>& K, int count) const {
-    std::vector<std::set<int>> below(count);  // rows below the diagonal, by column
-    for (int i = 0; i < static_cast<int>(K.size()); ++i) {
-      std::erase_if(K[i], [](const auto& entry) { return entry.second == 0; });
-      for (const auto& [j, value] : K[i]) {
-        if (j < std::min(i, count)) below[j].insert(i);
-      }
-    }
-    for (int k = 0; k < count; ++k) {
-      const auto pivot = K[k].find(k);
-      if (pivot == K[k].end())
-        Refuse(Path("M"), fmt::format("a zero pivot in row {}", k), "a positive definite matrix");
-      for (const int i : below[k]) {
-        const auto entry = K[i].find(k);
-        if (entry == K[i].end()) continue;
-        const Rational factor = entry->second / pivot->second;
-        for (auto at = std::next(pivot); at != K[k].end(); ++at) {
-          Rational& value = K[i][at->first];
-          value -= factor * at->second;
-          if (at->first < std::min(i, count)) below[at->first].insert(i);
-          if (value == 0) K[i].erase(at->first);
-        }
-        K[i].erase(k);
-      }
-    }
+  // The entries, so many columns further; those listed more than once add up.
+  static void Add(const Matrix& matrix, int columns, SparseMatrix& sum) {
+    for (const auto& [i, j, value] : matrix.entries) sum[{i, columns + j}] += Rational(value);
+    std::erase_if(sum, [](const auto& entry) { return entry.second == 0; });
   }
 
   const std::string source_;

@@ -8,10 +8,10 @@
 // are rows of bilateral contacts, behind the others: a = A f + b with f = (r, l),
 //
 //   local    A = [W V; V' R],  b = (q, s)
-//   global   A = [H G]' inv(M) [H G],  b = [H G]' inv(M) f + (w, b),  condensed exactly on reading
+//   global   A = [H G]' inv(M) [H G],  b = [H G]' inv(M) f + (w, b)
 //
-// So a global problem has an A that is positive semidefinite exactly if its M is positive definite. Its
-// numbers are rationals, and no doubles in general.
+// in factors, or condensed exactly (condense.h). So a global problem has an A that is positive semidefinite if
+// its M is positive definite. Its numbers are rationals, and no doubles in general.
 //
 // A matrix is m, n, nz, nzmax, p, i, x: nz = -1 compressed columns (p of n + 1), -2 compressed rows (p of m +
 // 1), otherwise nz triplets. fclib.h says that p lists the rows of triplets and i the columns; files hold rows

@@ -84,8 +84,10 @@ SparseProblem ParseAs(SiconosKind kind, const std::string& text, const std::stri
 
 SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> kind,
                            const std::string& source) {
+  const bool is_asked_for = kind.has_value();
   if (!kind) kind = KindByFirstWords(text, source);
   if (!kind) {
+    if (auto problem = ParseOtherSiconos(text, source)) return *std::move(problem);
     const std::string other = OtherSiconosKind(text);
     if (!other.empty()) throw InputError(source, "line 1", other, kReadKinds);
     throw InputError(source, "line 1", "neither of them",
@@ -94,6 +96,8 @@ SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> k
   try {
     return ParseAs(*kind, text, source);
   } catch (const InputError& error) {
+    if (auto problem = is_asked_for ? std::nullopt : ParseOtherSiconos(text, source))
+      return *std::move(problem);
     const std::string other = OtherSiconosKind(text);
     if (other.empty()) throw;
     throw InputError(fmt::format("{}; the file is {}, which is not read", error.what(), other));

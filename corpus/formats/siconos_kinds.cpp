@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/formats/siconos_kinds.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "corpus/formats/condense.h"
 #include "corpus/formats/siconos_words.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {
 
-// One kind; `read` throws InputError where the text is not of it.
+// One kind; `read` throws InputError where the text is not of it. `parse` makes a problem of one that is; null
+// where its law is none of ours.
 struct OtherKind {
   std::string_view name;
   void (*read)(SiconosWords& words);
+  SparseProblem (*parse)(SiconosWords& words) = nullptr;
 };
 
 // A size that the file derives from two others, each at most the length of the text.
@@ -141,10 +149,107 @@ void ReadGenericMechanical(SiconosWords& words) {
   words.ExpectEnd();
 }
 
+// ---- Kinds that become problems ----------------------------------------------------------------
+
+ExactProblem::Vector ReadVector(SiconosWords& words, int count, const char* name) {
+  ExactProblem::Vector numbers(count);
+  for (int i = 0; i < count; ++i) numbers[i] = Rational(words.Number(fmt::format("{}[{}]", name, i)));
+  return numbers;
+}
+
+void DropZeros(SparseMatrix& matrix) {
+  std::erase_if(matrix, [](const auto& entry) { return entry.second == 0; });
+}
+
+// M v = H r + q, u = H'v + b.
+SparseProblem ParseGlobalFriction(SiconosWords& words) {
+  SparseProblem problem;
+  problem.dimension = words.Integer("the dimension", 2, 3);
+  const int contacts = words.Count("the number of contacts");
+  const int rows = Multiplied(words, problem.dimension, contacts);
+  GlobalEquations equations;
+  SiconosMatrixReader M(words, &equations.M);
+  M.Read({});
+  if (M.rows() != M.columns()) words.Refuse("a matrix M", "a square one");
+  SiconosMatrixReader(words, &equations.B).Read({M.rows(), rows});
+  DropZeros(equations.M);
+  DropZeros(equations.B);
+  equations.f = ReadVector(words, M.rows(), "q");
+  equations.w = ReadVector(words, rows, "b");
+  const ExactProblem::Vector mu = ReadVector(words, contacts, "mu");
+  for (int i = 0; i < contacts; ++i) {
+    if (mu[i] < 0) words.Refuse(ToString(mu[i]), fmt::format("mu[{}], a number >= 0", i));
+    problem.contacts.push_back({ContactKind::kStatic, mu[i], {}});
+  }
+  words.ExpectEnd();
+  problem.origin = {{"format", "siconos-gfc"}, {"storage", M.storage()}};
+  if (const auto row = Condense(equations, problem))
+    words.Refuse(fmt::format("an M with a zero pivot in row {}", *row), "a positive definite matrix");
+  return problem;
+}
+
+// Equations are bilateral contacts, conditions are frictionless ones.
+void AddRows(SparseProblem& problem, int count, ContactKind kind) {
+  problem.contacts.insert(problem.contacts.end(), count, {kind, Rational(0), {}});
+}
+
+// A, B, C, D, a, b, row by row: n equations A u + C v + a = 0, then m conditions on v and D u + B v + b.
+void ReadParts(SiconosWords& words, int n, int m, SparseProblem& problem) {
+  const auto block = [&](const char* name, int rows, int columns, int row, int column) {
+    for (int i = 0; i < rows; ++i) {
+      for (int j = 0; j < columns; ++j)
+        problem.A[{row + i, column + j}] = Rational(words.Number(fmt::format("{}[{}, {}]", name, i, j)));
+    }
+  };
+  block("A", n, n, 0, 0);
+  block("B", m, m, n, n);
+  block("C", n, m, 0, n);
+  block("D", m, n, n, 0);
+  AddRows(problem, n, ContactKind::kBilateral);
+  AddRows(problem, m, ContactKind::kFrictionless);
+  problem.b = ReadVector(words, n + m, "a, b");
+}
+
+SparseProblem ParseMixed(SiconosWords& words) {
+  SparseProblem problem;
+  const bool has_whole = words.Integer("M is given", 0, 1) == 1;
+  words.Integer("A is given", 0, 1);
+  const int n = words.Count("equations"), m = words.Count("conditions"), rows = n + m;
+  problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  if (has_whole) {
+    std::vector<int> begins = {words.Integer("a begin", 0, 0)};
+    while (begins.back() < rows) begins.push_back(words.Integer("a begin", begins.back() + 1, rows));
+    for (std::size_t k = 1; k < begins.size(); ++k) {
+      const bool is_condition = words.Integer("the kind of a block, 0: equations, 1: conditions", 0, 1) == 1;
+      AddRows(problem, begins[k] - begins[k - 1],
+              is_condition ? ContactKind::kFrictionless : ContactKind::kBilateral);
+    }
+    SiconosMatrixReader M(words, &problem.A);
+    M.Read({rows, rows});
+    problem.origin["storage"] = M.storage();
+    problem.b = ReadVector(words, rows, "q");
+  } else {
+    ReadParts(words, n, m, problem);
+  }
+  DropZeros(problem.A);
+  return problem;  // A, B, C, D may stand behind M: the same numbers
+}
+
+SparseProblem ParseOlderMixed(SiconosWords& words) {
+  SparseProblem problem;
+  const int n = words.Count("equations"), m = words.Count("conditions");
+  words.Integer("the number of rows", n + m, n + m);
+  ReadParts(words, n, m, problem);
+  DropZeros(problem.A);
+  words.ExpectEnd();
+  problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  return problem;
+}
+
 // A kind stands before those that would take its files, too.
 constexpr std::array kOtherKinds = {
     OtherKind{"a mixed linear complementarity problem (MLCP: storages, n, m, blocks, matrices, vectors)",
-              &ReadMixed},
+              &ReadMixed, &ParseMixed},
     OtherKind{"a generic mechanical problem (GMP: matrix, q, kinds of its parts)", &ReadGenericMechanical},
     OtherKind{"a second-order cone complementarity problem (SOCLCP: n, cones, matrix, q, their rows, mu)",
               &ReadSecondOrderCones},
@@ -153,13 +258,15 @@ constexpr std::array kOtherKinds = {
     OtherKind{"a rolling friction problem (dimension 5, contacts, matrix, q, mu, mu_r)", &ReadRolling},
     OtherKind{"a plasticity problem (dimension, cones, model, matrix, q, coefficients)", &ReadPlasticity},
     OtherKind{"a cohesive friction problem (dimension, contacts, cohesive points, matrix, ...)", &ReadCohesive},
-    OtherKind{"a global friction problem (dimension, contacts, M, H, q, b, mu)", &ReadGlobalFriction},
+    OtherKind{"a global friction problem (dimension, contacts, M, H, q, b, mu)", &ReadGlobalFriction,
+              &ParseGlobalFriction},
     OtherKind{
         "a problem with two coefficients a contact: rolling friction in the plane (mu, mu_r) or plasticity "
         "(eta, theta)",
         &ReadTwoCoefficients},
     OtherKind{"a relay problem (n, matrix, q, lower bounds, upper bounds)", &ReadRelay},
-    OtherKind{"a mixed linear complementarity problem (MLCP: n, m, rows, numbers)", &ReadOlderMixed},
+    OtherKind{"a mixed linear complementarity problem (MLCP: n, m, rows, numbers)", &ReadOlderMixed,
+              &ParseOlderMixed},
 };
 
 bool IsOfKind(const std::string& text, const OtherKind& kind) {
@@ -175,11 +282,30 @@ bool IsOfKind(const std::string& text, const OtherKind& kind) {
 
 }  // namespace
 
+namespace {
+
+const OtherKind* FindOtherKind(const std::string& text) {
+  const auto kind = std::find_if(kOtherKinds.begin(), kOtherKinds.end(),
+                                 [&text](const OtherKind& k) { return IsOfKind(text, k); });
+  return kind == kOtherKinds.end() ? nullptr : &*kind;
+}
+
+}  // namespace
+
 std::string OtherSiconosKind(const std::string& text) {
-  for (const OtherKind& kind : kOtherKinds) {
-    if (IsOfKind(text, kind)) return std::string(kind.name);
+  const OtherKind* kind = FindOtherKind(text);
+  return kind == nullptr ? "" : std::string(kind->name);
+}
+
+std::optional<SparseProblem> ParseOtherSiconos(const std::string& text, const std::string& source) {
+  const OtherKind* kind = FindOtherKind(text);
+  if (kind == nullptr || kind->parse == nullptr) return std::nullopt;
+  SiconosWords words(text, source);
+  try {
+    return kind->parse(words);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; the file is {}", error.what(), kind->name));
   }
-  return "";
 }
 
 }  // namespace stiction

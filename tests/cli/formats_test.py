@@ -84,9 +84,7 @@ class Formats(cli.TestCase):
         matrix, cube = "0 2 2 2 2\n4 1\n1 3\n", "0 3 3 3 3\n2 0 0\n0 2 0\n0 0 2\n"
         for name, text, says in [
                 ("relay", f"2\n{matrix}-1 -2\n-1 -1\n1 1\n", ["line 6: found 4 numbers more", "a relay problem"]),
-                ("mlcp", f"1 0 1 1\n0 1 2\n0 1\n{matrix}5 -6\n", ["line 2", "MLCP"]),
-                ("rectangular", "1 1 1 1\n0 1 2\n0 1\n0 3 2 3 2\n" + "1 -1 2 " * 6 + "7\n", ["numbers more", "MLCP"]),
-                ("global", f"3 1\n{cube}{cube}-1 -1 -1 0 0 0\n0.1\n", ["numbers more", "a global friction problem"]),
+                ("rectangular", "1 1 1 1\n0 1 2\n0 1\n0 3 2 3 2\n" + "1 -1 2 " * 6 + "7\n", ["line 4", "MLCP"]),
                 ("rolling", "5 1\n0 5 5 5 5\n" + "1 2 3 4 5\n" * 6 + "0.3\n0.1\n", ["line 1", "a rolling friction problem"]),
                 ("soclcp", f"3 1\n{cube}-1 2 0\n0 3\n0.5\n", ["2 numbers more", "SOCLCP"]),
                 ("gmp", "1 1 1 1 1 1\n1\n1\n2 1\n0 1\n0\n0\n5\n\n-3\n\n2\n", ["line 4", "GMP"]),
@@ -98,6 +96,19 @@ class Formats(cli.TestCase):
                 self.assertFalse(out.exists())
                 done = self.succeeds("survey", file, "--json", code=2)
                 self.assertIn(says[1], done.json()[0]["error"])
+
+    def test_a_global_problem_keeps_its_factors_and_is_the_same_condensed(self):
+        cube, eye = "0 3 3 3 3\n2 0 0\n0 2 0\n0 0 4\n", "0 3 3 3 3\n1 0 0\n0 1 0\n0 0 1\n"
+        problem = self.imported(f"3 1\n{cube}{eye}-1 -1 -1 0 0 4\n0.1\n")
+        self.assertEqual(problem["factors"]["M"], ["2", "2", "4"])
+        self.assertEqual(problem["factors"]["w"], ["-1/2", "-1/2", "-1/4"])
+        self.assertEqual(problem["factors"]["c"], ["0", "0", "4"])
+        self.assertEqual(problem["origin"]["format"], "siconos-gfc")
+
+    def test_an_mlcp_is_solved_by_bilateral_and_frictionless_contacts(self):
+        self.imported("1 0 1 1\n0 1 2\n0 1\n0 2 2 2 2\n4 1\n1 3\n5 -6\n")
+        done = self.succeeds("solve", self.folder / "problem.json", "--method", "complete", "--json").json()
+        self.assertEqual(done["f"], ["-21/11", "29/11"])
 
     def test_numbers_behind_the_last_one_are_refused_and_a_flag_or_text_is_not(self):
         problem = self.imported(LCP)

@@ -368,7 +368,8 @@ TEST_CASE("Siconos: a file of another kind is refused by the name of its kind") 
   cases.push_back({"a global friction problem", "2\n0\n" + DenseMatrix(3, 3) + DenseMatrix(3, 0) + Numbers(3)});
   for (const Case& c : cases) {
     CAPTURE(c.text);
-    CHECK_THROWS_WITH(Parse(c.text), Contains("file: line ") && Contains(c.kind));
+    const bool is_read = c.kind == kMlcp || c.kind == "a global friction problem";
+    if (!is_read) CHECK_THROWS_WITH(Parse(c.text), Contains("file: line ") && Contains(c.kind));
     for (const SiconosKind kind : {SiconosKind::kLcp, SiconosKind::kFriction}) {
       CHECK_THROWS_WITH(ParseSiconos(c.text, kind, "file"),
                         Contains("file: line ") && Contains("; the file is " + c.kind));
@@ -376,14 +377,53 @@ TEST_CASE("Siconos: a file of another kind is refused by the name of its kind") 
   }
 }
 
-// M = 2 I, H = I, q = -(1, 1, 1), b = 0, mu = 1/10; read as a local problem it has q = (0, 3, 3), mu = 3.
-TEST_CASE("Siconos: the sizes of a global problem's second matrix are no q and no mu") {
-  const std::string M = "0\n3\n3\n3\t3\n2 0 0\n0 2 0\n0 0 2\n", H = "0\n3\n3\n3\t3\n1 0 0\n0 1 0\n0 0 1\n";
-  CHECK_THROWS_WITH(
-      Parse("3\n1\n" + M + H + "-1 -1 -1 0 0 0\n0.1\n0\n"),
-      Contains("file: line 13: found 18 numbers more, from '3' on, expected the end of the file, a "
-               "single 0 or 1, or text; the file is a global friction problem (dimension, contacts, M, "
-               "H, q, b, mu), which is not read"));
+// M = 2 I, H = I, q = -(1, 1, 1), b = (0, 0, 4), mu = 1/10; as a local problem it would have q = (0, 3, 3), mu
+// = 3.
+const std::string kGlobalM = "0\n3\n3\n3\t3\n2 0 0\n0 2 0\n0 0 2\n",
+                  kGlobalH = "0\n3\n3\n3\t3\n1 0 0\n0 1 0\n0 0 1\n";
+const std::string kGlobal = "3\n1\n" + kGlobalM + kGlobalH + "-1 -1 -1 0 0 4\n0.1\n0\n";
+
+TEST_CASE("Siconos: a global problem is read in its factors, and the sizes of H are no q and no mu") {
+  const SparseProblem problem = Parse(kGlobal);
+  CHECK(problem.dimension == 3);
+  REQUIRE(problem.contacts.size() == 1);
+  CHECK(problem.contacts[0].mu == Rational(0.1));
+  const Rational half(1, 2);
+  CHECK((problem.A == SparseMatrix{{{0, 0}, half}, {{1, 1}, half}, {{2, 2}, half}}));
+  CHECK((problem.b == ExactVector(Eigen::Map<const ExactVector>(
+                          std::array<Rational, 3>{-half, -half, Rational(7, 2)}.data(), 3))));
+  REQUIRE(problem.factors);
+  CHECK(problem.factors->c[2] == 4);
+  CHECK_THROWS_WITH(ParseSiconos(kGlobal, SiconosKind::kFriction, "file"),
+                    Contains("found 18 numbers more, from '3' on") &&
+                        Contains("the file is a global friction problem") && Contains("which is not read"));
+  const std::string flat = "3\n1\n0\n3\n3\n3\t3\n2 0 0\n0 0 0\n0 0 2\n" + kGlobalH + "-1 -1 -1 0 0 4\n0.1\n";
+  CHECK_THROWS_WITH(Parse(flat), Contains("a zero pivot in row 1") && Contains("a positive definite matrix") &&
+                                     Contains("the file is a global friction problem"));
+}
+
+// Equation 4 u + v + 5 = 0, condition w = u + 3 v - 6 on v; each form says the same.
+TEST_CASE("Siconos: an MLCP is read, its equations as bilateral contacts") {
+  for (const std::string& text :
+       {std::string("1 0 1 1\n0 1 2\n0 1\n0 2 2 2 2\n4 1\n1 3\n5 -6\n"),
+        std::string("1 1 1 1\n0 1 2\n0 1\n0 2 2 2 2\n4 1\n1 3\n5 -6\n4\n3\n1\n1\n5 -6\n"),
+        std::string("0 1 1 1\n4\n3\n1\n1\n5 -6\n"), std::string("1 1 2\n4\n3\n1\n1\n5 -6\n")}) {
+    CAPTURE(text);
+    const SparseProblem problem = Parse(text);
+    REQUIRE(problem.contacts.size() == 2);
+    CHECK(problem.contacts[0].kind == ContactKind::kBilateral);
+    CHECK(problem.contacts[1].kind == ContactKind::kFrictionless);
+    CHECK((problem.A == SparseMatrix{{{0, 0}, 4}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 3}}));
+    CHECK(problem.b[0] == 5);
+    CHECK(problem.b[1] == -6);
+    CHECK(problem.origin["format"] == "siconos-mlcp");
+  }
+  // C and D are not each other's mirror; C is 1 x 2, row by row.
+  const SparseProblem parts = Parse("1 2 3\n1\n2 3 4 5\n6 7\n8 9\n0 0 0\n");
+  CHECK(parts.A.at({0, 2}) == 7);
+  CHECK(parts.A.at({2, 0}) == 9);
+  CHECK(parts.A.at({2, 1}) == 4);
+  CHECK_THROWS_WITH(Parse("1 1 3\n" + Numbers(9)), Contains("MLCP") && Contains("the number of rows"));
 }
 
 TEST_CASE("Siconos: a file that is wrong in itself is not taken for one of another kind") {
@@ -470,7 +510,25 @@ void CheckCondensed(const SparseProblem& problem) {
 TEST_CASE("FCLIB: a global problem is condensed exactly, its equations are bilateral contacts") {
   const Folder folder;
   WriteSets(folder / "global.hdf5", GlobalProblem());
-  CheckCondensed(ReadPublished(folder / "global.hdf5"));
+  const SparseProblem problem = ReadPublished(folder / "global.hdf5");
+  CheckCondensed(problem);
+  REQUIRE(problem.factors);
+  CHECK(FormA(*problem.factors) == problem.A);
+  CHECK(problem.factors->b == problem.b);
+  CHECK(problem.factors->w == Vector({2, -1, 1}));
+  CHECK(problem.factors->c == Vector({1, 2, 5}));
+}
+
+TEST_CASE("FCLIB: a global problem whose M is not symmetric is condensed, and has no factors") {
+  const Folder folder;
+  Sets sets = GlobalProblem();
+  AddMatrix(sets, "/fclib_global/M", 3, 3, -1, {0, 2, 4, 5}, {0, 1, 0, 1, 2}, {2, 0, 1, 2, 4});
+  WriteSets(folder / "global.hdf5", sets);
+  const SparseProblem problem = ReadPublished(folder / "global.hdf5");
+  CHECK_FALSE(problem.factors);
+  CHECK(problem.A.at({0, 1}) == Rational(-1, 4));
+  CHECK(problem.A.count({1, 0}) == 0);
+  CHECK(problem.origin.contains("condensed"));
 }
 
 TEST_CASE(

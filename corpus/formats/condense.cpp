@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "corpus/formats/condense.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "corpus/json.h"
+
+namespace stiction {
+namespace {
+
+constexpr Eigen::Index kMostBlock = 24;  // rows of a block whose inverse is kept
+
+// By the factors; empty where M has none that are kept.
+std::optional<ExactFactors> FactorsOf(const GlobalEquations& equations, const SparseProblem& problem) {
+  const auto velocities = equations.f.size();
+  std::vector<Eigen::Triplet<Rational>> entries;
+  for (const auto& [at, value] : equations.M) entries.emplace_back(at.first, at.second, value);
+  Eigen::SparseMatrix<Rational> M(velocities, velocities);
+  M.setFromTriplets(entries.begin(), entries.end());
+  FactorParts parts{{}, BlocksOf(M), equations.f, equations.w};
+  const bool fits = std::all_of(parts.M.begin(), parts.M.end(), [](const ExactProblem::Matrix& block) {
+    return block.rows() <= kMostBlock && block == block.transpose();
+  });
+  if (!fits) return std::nullopt;
+  int at = 0;
+  for (const ExactProblem::Matrix& block : parts.M) {
+    const auto inverse = InverseOfDefinite(block);
+    if (!inverse) return std::nullopt;
+    const ExactProblem::Vector force = parts.w.segment(at, block.rows());
+    parts.w.segment(at, block.rows()) = *inverse * force;
+    at += static_cast<int>(block.rows());
+  }
+  for (const auto& [place, value] : equations.B) parts.J.emplace(std::pair(place.second, place.first), value);
+  return MakeFactors(problem.dimension, problem.contacts, std::move(parts));
+}
+
+using SparseRow = std::map<int, Rational>;
+
+// Makes the first `count` columns of all later rows zero, by the diagonal pivots of the first rows. The row
+// whose pivot is zero, if one is.
+std::optional<int> Eliminate(std::vector<SparseRow>& K, int count) {
+  std::vector<std::set<int>> below(count);  // rows below the diagonal, by column
+  for (int i = 0; i < static_cast<int>(K.size()); ++i) {
+    std::erase_if(K[i], [](const auto& entry) { return entry.second == 0; });
+    for (const auto& [j, value] : K[i]) {
+      if (j < std::min(i, count)) below[j].insert(i);
+    }
+  }
+  for (int k = 0; k < count; ++k) {
+    const auto pivot = K[k].find(k);
+    if (pivot == K[k].end()) return k;
+    for (const int i : below[k]) {
+      const auto entry = K[i].find(k);
+      if (entry == K[i].end()) continue;
+      const Rational factor = entry->second / pivot->second;
+      for (auto at = std::next(pivot); at != K[k].end(); ++at) {
+        Rational& value = K[i][at->first];
+        value -= factor * at->second;
+        if (at->first < std::min(i, count)) below[at->first].insert(i);
+        if (value == 0) K[i].erase(at->first);
+      }
+      K[i].erase(k);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> Condense(const GlobalEquations& equations, SparseProblem& problem) {
+  if (auto factors = FactorsOf(equations, problem)) {
+    problem.b = factors->b;
+    problem.factors = std::move(factors);
+    if (!StaysSparse(problem.rows(), true)) problem = WithMatrix(std::move(problem));
+    problem.origin["factors"] = "J = B', M, w = inv(M) f, c = w, of M v = B r + f, u = B'v + w";
+    return std::nullopt;
+  }
+  // Elimination of v from [M, -B, -f; B', 0, w].
+  const int first = static_cast<int>(equations.f.size()), rows = static_cast<int>(equations.w.size()),
+            last = first + rows;
+  std::vector<SparseRow> K(last);
+  for (const auto& [at, value] : equations.M) K[at.first][at.second] = value;
+  for (const auto& [at, value] : equations.B) {
+    K[at.first][first + at.second] = -value;
+    K[first + at.second][at.first] = value;
+  }
+  for (int i = 0; i < first; ++i) K[i][last] = -equations.f[i];
+  if (const auto row = Eliminate(K, first)) return row;
+  problem.b = equations.w;
+  for (int i = 0; i < rows; ++i) {
+    for (const auto& [j, value] : K[first + i]) {
+      if (j == last) problem.b[i] += value;
+      if (first <= j && j < last) problem.A[{i, j - first}] = value;
+    }
+  }
+  problem.origin["condensed"] = "A = B' inv(M) B, over rationals";
+  return std::nullopt;
+}
+
+}  // namespace stiction

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Global problems, as others publish them, made local:
+//
+//   M v = B r + f,  u = B'v + w     becomes     u = A r + b,  A = B' inv(M) B,  b = B' inv(M) f + w
+//
+// Where M is symmetric and positive definite, in blocks along its diagonal that are not large, as the masses of
+// bodies are, the problem keeps its factors J = B', M, w = inv(M) f, c = w. Otherwise, as of finite elements, v
+// is eliminated over rationals.
+
+#ifndef STICTION_CORPUS_FORMATS_CONDENSE_H_
+#define STICTION_CORPUS_FORMATS_CONDENSE_H_
+
+#include <optional>
+
+#include "corpus/record/sparse_problem.h"
+
+namespace stiction {
+
+// M velocities x velocities, B velocities x rows, f and w of them; no entry is zero.
+struct GlobalEquations {
+  SparseMatrix M, B;
+  ExactProblem::Vector f, w;
+};
+
+// Sets A and b, or the factors, of a problem that has its contacts. The row of M whose pivot is zero, if one
+// is: then it has no inverse, or is not definite, and nothing is set.
+std::optional<int> Condense(const GlobalEquations& equations, SparseProblem& problem);
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_FORMATS_CONDENSE_H_
