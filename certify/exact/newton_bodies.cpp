@@ -75,7 +75,7 @@ InexactAnswer SolveByBodies(const ExactFactors& problem, const SolveOptions& opt
     return answer;
   }
   const ExactProblem::Vector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const ExactProblem::Vector a = problem.A.J() * problem.Accelerations(f) + problem.c;
+  const ExactProblem::Vector a = problem.Accelerations(f);
   answer.a = a.unaryExpr(&ToDouble);
   JudgeExactly(problem, f, a, BoundOf<double>(options), answer);
   return answer;

@@ -324,7 +324,7 @@ class Solving {
     options.noise = options_.noise;
     options.points = options_.points;
     if (start != nullptr) {
-      const Vector a = factors.A.J() * factors.Accelerations(*start) + factors.c;
+      const Vector a = factors.Accelerations(*start);
       const double error = ErrorsAt(factors, *start, a, options_.noise, 0).Largest();
       options.warm_eps = std::clamp(kEpsPerError * error, options.warm_eps, kMostEps);
       options.failures = kFailures + problem_.rows() / kRowsPerFailure;
@@ -474,7 +474,7 @@ stiction_verdict SolveFactors(stiction_context& context, const stiction_factors*
   const Best& best = solving.Finish();
   context.known.clear();
   if (solving.IsSolved()) Remember(context, *given, best.f);
-  return Told(context, best, problem, problem.Accelerations(best.f), options, *answer);
+  return Told(context, best, problem, problem.w + problem.Responses(best.f), options, *answer);
 }
 
 stiction_verdict SolveNumbers(stiction_context& context, const stiction_dense* given,

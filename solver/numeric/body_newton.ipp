@@ -168,7 +168,7 @@ void BodyNewton<Scalar>::TakePattern() {
 // The largest error of f_, with the rounding of its accelerations.
 template <class Scalar>
 Scalar BodyNewton<Scalar>::Measured() {
-  a_ = problem_->A.J() * problem_->Responses(f_) + problem_->b;
+  a_ = problem_->Accelerations(f_);
   told_a_ = a_;
   for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, units_, Scalar(0));

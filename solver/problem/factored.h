@@ -83,6 +83,8 @@ struct FactoredProblem {
 
   // W J' f, what the forces change of the bodies' accelerations.
   Vector Responses(const Vector& f) const { return A.W() * (A.J().transpose() * f); }
+  // a = A f + b, of the contacts.
+  Vector Accelerations(const Vector& f) const { return A.J() * Responses(f) + b; }
 };
 
 }  // namespace stiction
