@@ -53,6 +53,22 @@ Json JsonOf(const OutputCell& cell) {
   return std::get<std::int64_t>(cell);
 }
 
+// columns.csv
+template <class Kind>
+void WriteColumns(const std::filesystem::path& folder) {
+  std::string text = "table,column,unit,meaning\n";
+  DescribeColumns(BodyTable<Kind>(), text);
+  DescribeColumns(ContactTable<Kind>(), text);
+  DescribeColumns(EnergyTable(), text);
+  DescribeColumns(DriftTable(), text);
+  DescribeColumns(MotionTable<Kind>(), text);
+  std::ofstream columns;
+  Open(columns, folder / "columns.csv");
+  if (!(columns << text).flush()) throw OutputError(folder.string() + ": its tables cannot be written");
+}
+
+}  // namespace
+
 // The files of one table.
 template <class Row>
 class TableFiles {
@@ -101,22 +117,6 @@ void TableFiles<Row>::Flush() {
     if (file->is_open() && !file->flush()) throw OutputError(folder_ + ": its tables cannot be written");
   }
 }
-
-// columns.csv
-template <class Kind>
-void WriteColumns(const std::filesystem::path& folder) {
-  std::string text = "table,column,unit,meaning\n";
-  DescribeColumns(BodyTable<Kind>(), text);
-  DescribeColumns(ContactTable<Kind>(), text);
-  DescribeColumns(EnergyTable(), text);
-  DescribeColumns(DriftTable(), text);
-  DescribeColumns(MotionTable<Kind>(), text);
-  std::ofstream columns;
-  Open(columns, folder / "columns.csv");
-  if (!(columns << text).flush()) throw OutputError(folder.string() + ": its tables cannot be written");
-}
-
-}  // namespace
 
 template <class Kind>
 struct RunTables<Kind>::Files {
