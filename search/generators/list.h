@@ -22,6 +22,7 @@
   X(Bilateral)                 \
   X(Sliding)                   \
   X(Space)                     \
-  X(Exceptional)
+  X(Exceptional)               \
+  X(Steps)
 
 #endif  // STICTION_SEARCH_GENERATORS_LIST_H_
