@@ -101,22 +101,25 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, Exac
   return answer;
 }
 
-// The solution in the cells that the fast method finds over doubles; none where doubles do not hold the
-// problem.
+// A solution in the cells that the fast method finds over doubles, or those of Newton's method in the space of
+// bodies, whose forces are seldom at a limit; none where doubles do not hold the problem.
 NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
-  std::vector<double> point;
-  ScaledProblem scaled;
+  NearbyWords near;
   try {
-    scaled = MakeScaled(problem);
-    const double unit = ToDouble(scaled.force);
-    for (const double x : Solve(Rounded<double>(problem), "fast", {.limits = limits}).f)
-      point.push_back(x / unit);
+    const ContactProblem<double> rounded = Rounded<double>(problem);
+    const ScaledProblem scaled = MakeScaled(problem);
+    std::set<ModeWord> tried;
+    for (const Method<double>& method : {*FindMethod<double>("fast"), NewtonBodiesRow()}) {
+      const Eigen::VectorXd f = SolveBy(method, rounded, {.limits = limits}).f / ToDouble(scaled.force);
+      NearbyWords found = SolveNear(problem, scaled, {f.begin(), f.end()}, kWords, tried);
+      found.words += near.words;
+      near = std::move(found);
+      if (near.f) break;
+    }
   } catch (const InputError&) {
-    return {};
   }
-  std::set<ModeWord> tried;
-  return SolveNear(problem, scaled, point, kWords, tried);
+  return near;
 }
 
 // Complete driving where the cells of doubles are none.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/exact/lifted_equations.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
 #include "solver/problem/check.h"
@@ -128,6 +129,8 @@ void WordsByRank::Push(std::vector<int> ranks) {
 
 namespace {
 
+constexpr int kLiftedSize = 16;  // of equations, from which on lifting costs less than elimination
+
 // A force that a word leaves open, x (e_row + f_t e_(row + 1)); in return a_row = 0.
 struct Unknown {
   int row;
@@ -176,8 +179,9 @@ std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord
       if (unknowns[j].f_t != 0) M(i, j) += unknowns[j].f_t * problem.A(row, unknowns[j].row + 1);
     }
   }
+  const auto solve = size < kLiftedSize ? &SolveEquations : &SolveByLifting;
   for (const ExactVector& free : {ExactVector(ExactVector::Zero(size)), guess}) {
-    const auto x = SolveEquations(M, right, free);
+    const auto x = solve(M, right, free);
     if (!x) return std::nullopt;
     ExactVector f = Forces(problem, unknowns, *x);
     if (!FindViolation(problem, f)) return f;

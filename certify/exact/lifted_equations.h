@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear equations over rationals, hundreds of them: Dixon's p-adic lifting, by FLINT.
+//
+// Source  J. D. Dixon, Exact solution of linear equations using p-adic expansions, Numerische Mathematik 40,
+//         1982.
+// Cost    O(size^3) operations on machine words, and size^2 for each digit of the solution.
+
+#ifndef STICTION_CERTIFY_EXACT_LIFTED_EQUATIONS_H_
+#define STICTION_CERTIFY_EXACT_LIFTED_EQUATIONS_H_
+
+#include <optional>
+
+#include "certify/exact/properties.h"
+
+namespace stiction {
+
+// As SolveEquations (linear_equations.h), and the same numbers. Rows and columns are chosen that are
+// independent modulo a prime of 62 bits, and so are; the other rows are checked. Where that prime divides a
+// minor there may be more: then it may say of equations that have a solution that they contradict each other,
+// never the reverse.
+std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
+                                          const ExactVector& guess);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_LIFTED_EQUATIONS_H_

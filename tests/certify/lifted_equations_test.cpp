@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Equations over rationals: by lifting as by elimination, to the last digit.
+#include "certify/exact/lifted_equations.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "certify/exact/linear_equations.h"
+
+namespace stiction {
+namespace {
+
+Rational Drawn(std::mt19937_64& random) {
+  Rational value(static_cast<long>(random() % 201) - 100, static_cast<long>(random() % 12) + 1);
+  value.canonicalize();
+  return value;
+}
+
+ExactMatrix DrawnMatrix(std::mt19937_64& random, int rows, int columns) {
+  ExactMatrix M(rows, columns);
+  for (Rational& entry : M.reshaped()) entry = random() % 3 == 0 ? Rational(0) : Drawn(random);
+  return M;
+}
+
+}  // namespace
+
+TEST_CASE("lifted equations: the numbers of elimination, where unknowns are free, too") {
+  std::mt19937_64 random(20);
+  for (const int size : {0, 1, 2, 5, 16, 24, 40}) {
+    for (const int rank : {0, size / 3, size - 1, size}) {
+      if (rank < 0) continue;
+      const ExactMatrix M = DrawnMatrix(random, size, rank) * DrawnMatrix(random, rank, size);
+      const ExactVector some = DrawnMatrix(random, size, 1), guess = DrawnMatrix(random, size, 1);
+      const ExactVector right = M * some;
+      const auto lifted = SolveByLifting(M, right, guess), eliminated = SolveEquations(M, right, guess);
+      INFO("size " << size << ", rank " << rank);
+      REQUIRE(lifted);
+      REQUIRE(eliminated);
+      CHECK(M * *lifted == right);
+      CHECK(*lifted == *eliminated);
+    }
+  }
+}
+
+TEST_CASE("lifted equations: those that contradict each other have no solution") {
+  std::mt19937_64 random(21);
+  for (const int size : {1, 3, 20}) {
+    const ExactMatrix M = DrawnMatrix(random, size, size - 1) * DrawnMatrix(random, size - 1, size);
+    ExactVector right = M * DrawnMatrix(random, size, 1);
+    const ExactVector none = ExactVector::Zero(size);
+    REQUIRE(SolveByLifting(M, right, none));
+    // The last row is a combination of the others, and no longer says the same.
+    right[size - 1] += Rational(1, 1000000007);
+    CHECK(!SolveByLifting(M, right, none));
+    CHECK(!SolveEquations(M, right, none));
+  }
+}
+
+TEST_CASE("lifted equations: entries of a thousand digits") {
+  std::mt19937_64 random(22);
+  ExactMatrix M = DrawnMatrix(random, 18, 18);
+  Rational large = 1;
+  for (int i = 0; i < 500; ++i) large *= 99;
+  for (Rational& entry : M.reshaped()) entry = entry * large + Drawn(random) / large;
+  const ExactVector right = DrawnMatrix(random, 18, 1), none = ExactVector::Zero(18);
+  const auto x = SolveByLifting(M, right, none);
+  REQUIRE(x);
+  CHECK(M * *x == right);
+}
+
+}  // namespace stiction
