@@ -14,6 +14,7 @@
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "corpus/rounded.h"
+#include "solver/numeric/proximal.h"
 #include "solver/problem/reduction.h"
 #include "solver/solve.ipp"
 
@@ -101,22 +102,27 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, Exac
   return answer;
 }
 
-// A solution in the cells that the fast method finds over doubles, or those of Newton's method in the space of
-// bodies, whose forces are seldom at a limit; none where doubles do not hold the problem.
+// A solution in the cells of forces over doubles: those of the fast method, whose limits are reached by many,
+// or of proximal points, whose limits are reached by few. None where doubles do not hold the problem.
 NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
   NearbyWords near;
+  std::set<ModeWord> tried;
   try {
     const ContactProblem<double> rounded = Rounded<double>(problem);
     const ScaledProblem scaled = MakeScaled(problem);
-    std::set<ModeWord> tried;
-    for (const Method<double>& method : {*FindMethod<double>("fast"), NewtonBodiesRow()}) {
-      const Eigen::VectorXd f = SolveBy(method, rounded, {.limits = limits}).f / ToDouble(scaled.force);
-      NearbyWords found = SolveNear(problem, scaled, {f.begin(), f.end()}, kWords, tried);
+    const auto look_near = [&](const Eigen::VectorXd& f) {
+      std::vector<double> point;
+      for (const double x : f) point.push_back(x / ToDouble(scaled.force));
+      NearbyWords found = SolveNear(problem, scaled, point, kWords, tried);
       found.words += near.words;
       near = std::move(found);
-      if (near.f) break;
-    }
+    };
+    look_near(Solve(rounded, "fast", {.limits = limits}).f);
+    if (near.f) return near;
+    ProximalNewton<double> proximal({.aim = 1e-13, .limits = limits});
+    proximal.Run({rounded.dimension, rounded.contacts, rounded.A.sparseView(), rounded.b});
+    look_near(proximal.f());
   } catch (const InputError&) {
   }
   return near;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "solver/numeric/body_newton.h"
+#include "solver/numeric/dense_factors.h"
 #include "solver/problem/gate.h"
 #include "solver/solve.h"
 
@@ -405,36 +406,6 @@ Dense InNumbers(const Factored& problem) {
   return dense;
 }
 
-// A = J J', by LDL' with pivots of a semidefinite A: bodies of unit mass, as many as A has rank. None where A
-// is not semidefinite, or so large that the blocks of contacts would take too much memory.
-std::optional<Factored> InFactors(const Dense& problem) {
-  constexpr double kSymmetric = 1e-9, kMostEntries = 2e7;
-  const int n = problem.rows();
-  const double largest = problem.A.cwiseAbs().maxCoeff(),
-               rounding = n * std::numeric_limits<double>::epsilon() * largest;
-  if ((problem.A - problem.A.transpose()).cwiseAbs().maxCoeff() > kSymmetric * largest) return {};
-  const Eigen::LDLT<Eigen::MatrixXd> factor(problem.A);
-  const Vector D = factor.vectorD();
-  if (factor.info() != Eigen::Success || !D.allFinite() || D.minCoeff() < -rounding) return {};
-  const auto rank = (D.array() > rounding).count();
-  if (rank == 0 || static_cast<double>(problem.contacts.size()) * rank * rank > kMostEntries) return {};
-  const Eigen::MatrixXd L = factor.matrixL();
-  Eigen::MatrixXd J(n, rank);
-  for (int j = 0, k = 0; j < n; ++j) {
-    if (D[j] > rounding) J.col(k++) = L.col(j) * std::sqrt(D[j]);
-  }
-  J = factor.transpositionsP().transpose() * J;
-  Factored factors;
-  factors.dimension = problem.dimension;
-  factors.contacts = problem.contacts;
-  factors.M.resize(rank, rank);
-  factors.M.setIdentity();
-  factors.A = {J.sparseView(1, 0), factors.M};
-  factors.w.setZero(rank);
-  factors.b = factors.c = problem.b;
-  return factors;
-}
-
 // Writes the answer, when there is nothing left that may throw. v: of the bodies.
 template <class Problem>
 stiction_verdict Told(stiction_context& context, const Best& best, const Problem& problem, const Vector& v,
@@ -485,7 +456,7 @@ stiction_verdict SolveNumbers(stiction_context& context, const stiction_dense* g
   CheckAnswer(answer, problem.rows());
   Solving<Dense> solving(problem, options);
   if (!solving.IsSolved()) {
-    if (const auto factors = InFactors(problem))
+    if (const auto factors = FactorsOf(problem); factors && factors->w.size() > 0)
       solving.ByNewton(context.newton, *factors, options.warm ? Start(context, *given) : Vector());
   }
   if (!solving.IsSolved()) solving.ByDenseMethods(problem);

@@ -177,7 +177,8 @@ class Methods(Case):
         self.assertEqual((answer["outcome"], answer["arithmetic"]), ("solved", "double"))
         asymmetric = {"A": [[1, 0.5], [0, 1]], "b": [-1, 0], "mu": 1}
         done = cli.run("solve", self.file("asymmetric.json", asymmetric), "--json", "--method", "newton-bodies")
-        self.assertEqual((done.code, done.json()["reason"]), (3, "A is not symmetric and positive semidefinite"))
+        self.assertEqual(done.code, 3)
+        self.assertIn("A is not symmetric and positive semidefinite", done.json()["reason"])
 
     def test_two_coefficients_a_contact_are_one_where_the_second_axis_is_scaled(self):
         """The example of corpus/formats/problems.md, and its law unscaled, with any s."""
