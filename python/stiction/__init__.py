@@ -22,7 +22,8 @@ from ._simulation import Simulation, simulate
 from ._stiction import __version__
 
 __all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Simulation", "Store", "certify",
-           "check", "draw", "ends", "interval", "load", "replay", "search", "simulate", "solve", "solve_all"]  # and __version__
+           "check", "draw", "ends", "interval", "load", "replay", "search", "simulate", "solve",
+           "solve_all"]  # and __version__
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

@@ -101,9 +101,9 @@ def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step
              rest: float | None = None, full: bool = False) -> Simulation:
     """Steps a scene through time, over doubles: what `stiction simulate` does, and with the same numbers.
 
-    `scene` is a stiction-scene file, or a dictionary like one. `seconds` and `step`, in s, are the scene's unless they are
-    given; `rest` and `full` are what `stiction simulate --help` says. A step that has no answer ends the run: `reason`.
-    Ctrl-C is a KeyboardInterrupt.
+    `scene` is a stiction-scene file, or a dictionary like one. `seconds` and `step`, in s, are the scene's unless they
+    are given; `rest` and `full` are what `stiction simulate --help` says. A step that has no answer ends the run:
+    `reason`. Ctrl-C is a KeyboardInterrupt.
     """
     if isinstance(scene, Mapping):
         text, source = json.dumps(scene), "scene"
