@@ -67,9 +67,11 @@ Json HeadJson(const PeersOptions& o) {
           {"missing", MissingPackages()}};
 }
 
-void PrintHead() {
+void PrintHead(const PeersOptions& o) {
   const auto missing = MissingPackages();
-  fmt::print("{}\n{}\n{}\n{}\n", ThreadsText(), UnitText(), kFindex, kSettings);
+  fmt::print("{}\n", ThreadsText());
+  if (o.tables != std::vector<std::string>{"engines"})
+    fmt::print("{}\n{}\n{}\n", UnitText(), kFindex, kSettings);
   if (!missing.empty()) fmt::print("not installed: {}\n", fmt::join(missing, ", "));
 }
 
@@ -145,7 +147,7 @@ int RunPeers(const PeersOptions& o) {
   RequireFamilies(o);
   if (std::find(o.tables.begin(), o.tables.end(), "structure") != o.tables.end()) RequireScenes(o);
   Json json = HeadJson(o);
-  if (!o.json) PrintHead();
+  if (!o.json) PrintHead(o);
   const Clocks start = ReadClocks();
   json["tables"] = MeasureQuietly(o);
   const Clocks clocks = ReadClocks() - start;
