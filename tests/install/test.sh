@@ -43,6 +43,10 @@ fi
 sed -n '/^```c$/,/^```$/{/^```/!p}' "$interface/velocity_step.md" >"$work/velocity_step.c"
 PKG_CONFIG_PATH=$(dirname -- "$(find "$work/installed" -name stiction.pc)")
 export PKG_CONFIG_PATH
-read -ra flags <<<"$(pkg-config --cflags --libs stiction)"
-"$cc" -std=c11 -Wall -Wextra -pedantic -Werror "${instrumentation[@]}" "$work/velocity_step.c" "${flags[@]}" -o "$work/velocity_step"
+read -ra cflags <<<"$(pkg-config --cflags stiction)"
+read -ra libs <<<"$(pkg-config --libs stiction)"
+linker=$cc
+[[ -z $sanitizers ]] || linker=$cxx # sanitizers of C++ ask for it
+"$cc" -std=c11 -Wall -Wextra -pedantic -Werror "${instrumentation[@]}" "${cflags[@]}" -c "$work/velocity_step.c" -o "$work/step.o"
+"$linker" "${instrumentation[@]}" "$work/step.o" "${libs[@]}" -o "$work/velocity_step"
 "$work/velocity_step"
