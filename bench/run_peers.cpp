@@ -29,6 +29,7 @@ int BenchPeers(const BenchOptions& options, std::string_view tables) {
   if (!options.families.empty()) words.push_back("--family");
   words.insert(words.end(), options.families.begin(), options.families.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(program.c_str(), arguments.data());
