@@ -12,13 +12,20 @@
 
 namespace stiction {
 
+// From a start Newton's method may fail twice, and once more for so many rows: beyond, starting anew costs
+// less.
+inline constexpr int kFailures = 2, kRowsPerFailure = 40;
+
 template <class Scalar>
 BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
   constexpr int kIdle = 1;  // points that gain nothing before a solution is good enough
   const Scalar kHopeless(1e4), least(options_.least_eps);
-  eps_ = Scalar(start != nullptr ? options_.warm_eps : options_.first_eps);
   Scalar best = Measured();
+  eps_ = Scalar(options_.first_eps);
+  if (start != nullptr)
+    eps_ = std::clamp(Scalar(10 * best), Scalar(options_.warm_eps), Scalar(options_.most_warm_eps));
+  const int allowed = start != nullptr ? kFailures + problem.rows() / kRowsPerFailure : options_.failures;
   best_f_ = f_;
   best_a_ = a_;
   int idle = 0, failures = 0;
@@ -38,7 +45,7 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
     ++idle;
     const Vector v = v_;
     if (!Settle()) {
-      if (++failures > options_.failures) {
+      if (++failures > allowed) {
         verdict_.reason = "Newton's method settles too rarely";
         return verdict_;
       }
