@@ -10,7 +10,7 @@
 namespace stiction {
 namespace {
 
-Rational Drawn(std::mt19937_64& random) {
+Rational DrawnRational(std::mt19937_64& random) {
   Rational value(static_cast<long>(random() % 201) - 100, static_cast<long>(random() % 12) + 1);
   value.canonicalize();
   return value;
@@ -18,7 +18,7 @@ Rational Drawn(std::mt19937_64& random) {
 
 ExactMatrix DrawnMatrix(std::mt19937_64& random, int rows, int columns) {
   ExactMatrix M(rows, columns);
-  for (Rational& entry : M.reshaped()) entry = random() % 3 == 0 ? Rational(0) : Drawn(random);
+  for (Rational& entry : M.reshaped()) entry = random() % 3 == 0 ? Rational(0) : DrawnRational(random);
   return M;
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("lifted equations: entries of a thousand digits") {
   ExactMatrix M = DrawnMatrix(random, 18, 18);
   Rational large = 1;
   for (int i = 0; i < 500; ++i) large *= 99;
-  for (Rational& entry : M.reshaped()) entry = entry * large + Drawn(random) / large;
+  for (Rational& entry : M.reshaped()) entry = entry * large + DrawnRational(random) / large;
   const ExactVector right = DrawnMatrix(random, 18, 1), none = ExactVector::Zero(18);
   const auto x = SolveByLifting(M, right, none);
   REQUIRE(x);
