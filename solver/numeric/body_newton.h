@@ -16,14 +16,10 @@
 // The method of multipliers in other words: J. C. Simo, T. A. Laursen, Computers and Structures 42, 1992; P.
 // Alart, A. Curnier, Computer Methods in Applied Mechanics and Engineering 92, 1991 (both cited from memory).
 //
-// From forces near a solution, as those of the frame before, one or two points end it: the first eps is in
-// proportion to their error, so that what changed little takes a step or two, and what changed much does not
-// lead astray. Of forces that are not unique it takes some near the start. Called solved are forces whose
-// errors (problem/errors.h) are at most `residual`; whatever else is undecided, and the best forces are
-// returned.
-//
+// From forces near a solution, as those of the frame before, one or two points with small eps end it; of forces
+// that are not unique it takes some near the start. Called solved are forces whose errors (problem/errors.h)
+// are at most `residual`; whatever else is undecided, and the best forces are returned.
 // Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Floating-point scalars.
-//
 // Cost    a sparse LDL' or, where something slips, LU factorization per step of Newton's method.
 
 #ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
@@ -41,14 +37,14 @@
 namespace stiction {
 
 struct BodyNewtonOptions {
-  double residual = 1e-8;  // largest error of an answer that is called solved
-  double aim = 1e-12;      // error at which it ends; between the two it ends when points gain nothing
-  double first_eps = 1;    // without a start
-  double warm_eps = 1e-6, most_warm_eps = 3e-2;  // with one: ten times its error, between these
+  double residual = 1e-8;   // largest error of an answer that is called solved
+  double aim = 1e-12;       // error at which it ends; between the two it ends when points gain nothing
+  double first_eps = 1e-2;  // without a start
+  double warm_eps = 1e-6;   // with one
   double least_eps = 1e-7;
   int points = 100;     // proximal problems tried
-  int newton = 12;      // steps of Newton's method for each of them
-  int failures = 1000;  // proximal problems that Newton's method may not solve, without a start
+  int newton = 20;      // steps of Newton's method for each of them
+  int failures = 1000;  // proximal problems that Newton's method may not solve
   int halvings = 3;     // of a step that does not make R smaller
   double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2
   Limits limits = {};   // of them `stop` alone counts

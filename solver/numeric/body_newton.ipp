@@ -12,20 +12,13 @@
 
 namespace stiction {
 
-// From a start Newton's method may fail twice, and once more for so many rows: beyond, starting anew costs
-// less.
-inline constexpr int kFailures = 2, kRowsPerFailure = 40;
-
 template <class Scalar>
 BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 1;  // points that gain nothing before a solution is good enough
+  constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
   const Scalar kHopeless(1e4), least(options_.least_eps);
+  eps_ = Scalar(start != nullptr ? options_.warm_eps : options_.first_eps);
   Scalar best = Measured();
-  eps_ = Scalar(options_.first_eps);
-  if (start != nullptr)
-    eps_ = std::clamp(Scalar(10 * best), Scalar(options_.warm_eps), Scalar(options_.most_warm_eps));
-  const int allowed = start != nullptr ? kFailures + problem.rows() / kRowsPerFailure : options_.failures;
   best_f_ = f_;
   best_a_ = a_;
   int idle = 0, failures = 0;
@@ -45,7 +38,7 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
     ++idle;
     const Vector v = v_;
     if (!Settle()) {
-      if (++failures > allowed) {
+      if (++failures > options_.failures) {
         verdict_.reason = "Newton's method settles too rarely";
         return verdict_;
       }
@@ -54,7 +47,7 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
       continue;
     }
     center_ = f_;
-    eps_ = std::max(std::min(least, eps_), Scalar(eps_ / 3));
+    eps_ = std::max(std::min(least, eps_), Scalar(eps_ / 10));
     const Scalar now = Measured();
     if (now < best / 2) idle = 0;
     if (!(now < best)) continue;
