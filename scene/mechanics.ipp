@@ -164,6 +164,13 @@ FactoredProblem<Scalar> FactoredProblemOf(const std::vector<BodyDynamics<Scalar,
   problem.A = {std::move(J), BlockDiagonal<Scalar, Dof>(
                                  island, [&](int body) -> const auto& { return bodies[body].W; })};
   problem.c = problem.b - problem.A.J() * problem.w;
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    // Of impulses and positions b has nothing of w, whose rounding would hide a small b.
+    if (problem.rows() > 0 && problem.c.cwiseAbs().maxCoeff() > problem.b.cwiseAbs().maxCoeff()) {
+      problem.w.setZero();
+      problem.c = problem.b;
+    }
+  }
   return problem;
 }
 

@@ -3,12 +3,11 @@
 //
 //   proximal   from f, the problem with A + eps D and b - eps D f; D has one number a contact, its largest
 //   A_ii.
-//              Its forces are a function of what they change of the bodies' accelerations, v, alone, contact
-//              by contact:
-//                a = J v + b,   p = f - inv(eps D) a,   f+ = the point of the law's cone that p asks for
+//              Its forces are a function of the accelerations v of the bodies alone, contact by contact:
+//                a = J v + c,   p = f - inv(eps D) a,   f+ = the point of the law's cone that p asks for
 //              (fN+ = max(0, pN); fF+ the nearest point to pF of the interval or disc of radius mu fN+).
 //              At a fixed point f the problem itself is solved, whatever eps is.
-//   Newton     on R(v) = M v - J' f+(v), which is piecewise smooth, in the plane piecewise linear. Its
+//   Newton     on R(v) = M (v - w) - J' f+(v), which is piecewise smooth, in the plane piecewise linear. Its
 //              matrix is M + J' S J with a block S = -df+/da per contact: as large as the bodies' velocities,
 //              whatever the number of contacts, with entries where two bodies touch. Where nothing slips it is
 //              symmetric and positive definite. Its ordering is kept as long as the same bodies touch.

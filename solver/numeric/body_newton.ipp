@@ -72,7 +72,7 @@ void BodyNewton<Scalar>::Start(const Problem& problem, const Vector* start) {
     center_.setZero(problem.rows());
   }
   f_ = center_;
-  v_ = problem.Responses(f_);
+  v_ = problem.w + problem.Responses(f_);
 }
 
 // The rows of J by contact, and D.
@@ -168,7 +168,7 @@ void BodyNewton<Scalar>::TakePattern() {
 // The largest error of f_, with the rounding of its accelerations.
 template <class Scalar>
 Scalar BodyNewton<Scalar>::Measured() {
-  a_ = problem_->Accelerations(f_);
+  a_ = problem_->A.J() * (problem_->w + problem_->Responses(f_)) + problem_->c;
   told_a_ = a_;
   for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, units_, Scalar(0));
@@ -214,7 +214,7 @@ void BodyNewton<Scalar>::Evaluate() {
   slopes_.resize(pieces_.size());
   f_.resize(problem_->rows());
   symmetric_ = true;
-  R_ = problem_->M * v_;
+  R_ = problem_->M * (v_ - problem_->w);
   size_ = R_.size() > 0 ? R_.cwiseAbs().maxCoeff() : Scalar(0);
   for (std::size_t c = 0; c < pieces_.size(); ++c) {
     const Piece& piece = pieces_[c];
@@ -223,7 +223,7 @@ void BodyNewton<Scalar>::Evaluate() {
     const Scalar slope = 1 / (eps_ * D_[c]);
     std::array<Scalar, 3> p{};
     for (int i = 0; i < piece.rows; ++i) {
-      Scalar a = problem_->b[piece.row + i];
+      Scalar a = problem_->c[piece.row + i];
       for (int k = 0; k < piece.columns; ++k) a += J[i * piece.columns + k] * v_[columns[k]];
       p[i] = center_[piece.row + i] - a * slope;
     }
