@@ -485,6 +485,27 @@ TEST_CASE("simulate: factors give the answers of a dense A, with friction, witho
   }
 }
 
+// In doubles, too, where impulses have w = 0; and b of a wall at rest is not lost beside gravity.
+TEST_CASE("assemble: in factors b = J w + c at every level") {
+  auto scene = Wall(8);
+  scene.bodies.back().velocity = {1e-9, -1e-9};
+  for (const Level level : {Level::kForces, Level::kImpulses, Level::kPositions}) {
+    AssembleOptions<double> options;
+    options.level = level;
+    options.step = 1.0 / 60;
+    const auto model = Assemble(scene, FindContacts(scene), options);
+    for (std::size_t i = 0; i < model.islands.size(); ++i) {
+      const auto factored = model.InFactors(i);
+      const Eigen::VectorXd b = model.Problem(i).b;
+      INFO(kLevelNames[static_cast<int>(level)]);
+      CHECK(factored.b == b);
+      const double size = std::max(b.cwiseAbs().maxCoeff(), factored.w.cwiseAbs().maxCoeff());
+      CHECK((factored.A.J() * factored.w + factored.c - b).cwiseAbs().maxCoeff() <= 1e-14 * size);
+      CHECK((level == Level::kForces) == (factored.w.cwiseAbs().maxCoeff() > 1));
+    }
+  }
+}
+
 // The same verdict, bodies where they are but for so much after so many steps, and every answer a solution of
 // its problem: the gate judges both.
 TEST_CASE("simulate: from the forces of the step before as from f = 0", "[slow]") {
