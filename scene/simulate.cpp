@@ -45,16 +45,17 @@ auto MotionOf(const Body& body) {
 }
 
 // From which rows on an island is solved in factors before A is formed, and a start is worth more than it
-// costs.
-template <class Kind>
-constexpr int kFactorRows = Kind::kDimension == 2 ? 100 : 10;
+// costs. Positions have no friction, and joints leave their problems: of a few rows they are cheap with A.
+constexpr int FactorRows(Level level, int dimension) {
+  return level == Level::kPositions || dimension == 2 ? 100 : 10;
+}
 
 // In factors, from the start if there is one, then without; then with A. A small island the other way round:
 // in factors what has no answer, or a loose one.
 template <class Kind, class Model>
-SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, std::size_t island,
+SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, std::size_t island,
                         const Eigen::VectorXd& start) {
-  if (model.islands[island].rows < kFactorRows<Kind>) {
+  if (model.islands[island].rows < FactorRows(level, Kind::kDimension)) {
     SceneAnswer answer = solver.Solve(model.Problem(island));
     if (answer.Solved() && ValueOf(answer.counters, "loose") == 0) return answer;
     SceneAnswer other = solver.Solve(model.InFactors(island));
@@ -213,7 +214,7 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   f.resize(count);
   std::vector<SceneAnswer> answers(count);
   const auto solve = [&](std::size_t i) {
-    answers[i] = SolveIsland<Kind>(solvers_.local(), model, i, StartOf(model, level, i));
+    answers[i] = SolveIsland<Kind>(solvers_.local(), model, level, i, StartOf(model, level, i));
   };
   if (count > 1 && largest >= kParallelRows) {
     ForEachInParallel(count, solve);
@@ -237,7 +238,7 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
 // twice.
 template <class Kind>
 Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std::size_t island) const {
-  const bool is_small = model.islands[island].rows < kFactorRows<Kind>;
+  const bool is_small = model.islands[island].rows < FactorRows(level, Kind::kDimension);
   if (!options_.warm || level != Level::kForces || is_small || remembered_.empty()) return {};
   std::vector<Remembered> now;
   int row = 0;

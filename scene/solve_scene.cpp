@@ -18,9 +18,9 @@ constexpr int kProximalPoints = 3;
 // error: rows that nothing else acts on, as the second hinge of an axis has some, would be held to rounding.
 constexpr double kNoise = 1e-11;
 
-// From forces of the step before Newton's method may fail once for so many rows: of a small problem, whose
-// contacts have just changed, other methods cost less.
-constexpr int kRowsPerFailure = 40, kAnyFailures = 1000;
+// So often Newton's method may fail: from forces of the step before once for so many rows, since of a small
+// problem, whose contacts have just changed, other methods cost less; without a start, what fails more fails.
+constexpr int kRowsPerFailure = 40, kFailures = 12;
 
 constexpr int kLargeRows = 400;  // from which on A is better sparse in the plane, too
 
@@ -127,7 +127,7 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
     answer.outcome = Outcome::kSolved;
   } else {
     bodies_.options().noise = NoiseOf(problem);
-    bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kAnyFailures;
+    bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kFailures;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
     if (!answer.Solved() && start == nullptr && problem.dimension == 2 && problem.rows() >= kLargeRows) {
