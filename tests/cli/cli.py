@@ -77,6 +77,11 @@ def refused_by_schemas():
     return done.stderr if done.returncode else ""
 
 
+def unwrapped(text):
+    """The words of a text. Where its lines break depends on the lengths of the paths in it."""
+    return " ".join(text.split())
+
+
 def content(store):
     """Every row of every table of a store, in order."""
     db = sqlite3.connect(f"file:{store}?mode=ro", uri=True)

@@ -99,5 +99,18 @@ class WhileAnotherBuilds(cli.TestCase):
         self.assertIn(b"waiting for another build", waited.exception.stderr)
 
 
+class OfTests(cli.TestCase):
+    def test_what_failed_is_shown_as_it_was_printed(self):
+        failed = self.file("failed", "12:corpus case: a\n")
+        log = self.file("log", "1/3 Testing: corpus case: ab\nfine\n2/3 Testing: corpus case: a\nbroken\nTest Failed.\n"
+                               "3/3 Testing: corpus case: b\nfine\n")
+        script = (cli.ROOT / "run").read_text()
+        function = script[script.index("outputs_of_tests() {"):]
+        function = function[:function.index("\n}\n") + 3]
+        shown = subprocess.run(["bash", "-c", function + 'outputs_of_tests "$@"', "bash", failed, log], text=True,
+                               capture_output=True, check=True).stdout
+        self.assertEqual(shown, "2/3 Testing: corpus case: a\nbroken\nTest Failed.\n")
+
+
 if __name__ == "__main__":
     cli.main()
