@@ -10,13 +10,14 @@ with ties are proved for every mu, over numbers that stand for all (proved_signs
 
 import itertools
 import random
+import subprocess
 import sys
 import unittest
 from fractions import Fraction
 
 sys.dont_write_bytecode = True
 
-from many_runs import POLICIES, OpenRun, Run, StaticRows, check_runs, corpus, determinant  # noqa: E402
+from many_runs import POLICIES, ROOT, OpenRun, Run, StaticRows, check_runs, corpus, determinant  # noqa: E402
 from proved_signs import Function, X  # noqa: E402
 
 import check_certificate  # noqa: E402
@@ -72,7 +73,71 @@ class ThreeContactsWithATie(unittest.TestCase):
             OpenRun(rows, check_runs.read_policy("paper")).is_open()
 
 
+class TheTieGoesNoLower(unittest.TestCase):
+    """Part 4, its last proposition: of rings A_ii = [p q; q s], A_i,i+1 = [n x; y z] that have the tie."""
+
+    def rings(self):
+        dice = random.Random(4)
+        for _ in range(40):
+            mu = Fraction(dice.randint(1, 8), dice.randint(1, 4))
+            q, s, n, x, y, z = (Fraction(dice.randint(-9, 9)) for _ in range(6))
+            yield mu, (n + mu * (q - y), q, s, n, x, y, z)
+
+    @staticmethod
+    def matrix(p, q, s, n, x, y, z):
+        own, next_one = [[p, q], [q, s]], [[n, x], [y, z]]
+        A = [[Fraction(0)] * 6 for _ in range(6)]
+        for i, row, column in itertools.product(range(3), range(2), range(2)):
+            k, m = 2 * i + row, (2 * i + 2) % 6 + column
+            A[k][2 * i + column] = own[row][column]
+            A[k][m] = A[m][k] = next_one[row][column]
+        return A
+
+    @staticmethod
+    def turned(p, q, s, n, x, y, z):
+        """B_NN, B_FF, and the square of abs(B_NF)."""
+        return p - n, s - z, (q - (x + y) / 2) ** 2 + Fraction(3, 4) * (x - y) ** 2
+
+    def test_the_normals_of_the_state_can_all_be_clamped_where_the_tie_holds(self):
+        for mu, ring in self.rings():
+            A, f = self.matrix(*ring), [2, -2 * mu, 0, 0, 3, 0]
+            a = [sum(c * g for c, g in zip(row, f)) for row in A]
+            self.assertEqual(a[0], a[2])  # bN is one for all contacts
+            A[0][0] += 1
+            self.assertNotEqual(sum(c * g for c, g in zip(A[0], f)), a[2])
+
+    def test_the_eigenvalues_of_B_are_among_those_of_A(self):
+        for _, ring in self.rings():
+            p, q, s, n, x, y, z = ring
+            NN, FF, NF2 = self.turned(*ring)
+            for t in range(7):
+                A = [[c - t * (i == j) for j, c in enumerate(row)] for i, row in enumerate(self.matrix(*ring))]
+                same = (p + 2 * n - t) * (s + 2 * z - t) - (q + x + y) ** 2
+                self.assertEqual(determinant(A), same * ((NN - t) * (FF - t) - NF2) ** 2)
+
+    def test_B_NN_is_at_most_2_mu_by_the_root_of_3_times_B_NF_and_the_family_reaches_it(self):
+        for mu, ring in self.rings():
+            NN, _, NF2 = self.turned(*ring)
+            self.assertLessEqual(NN ** 2, Fraction(4, 3) * mu ** 2 * NF2)
+        for mu in (Fraction(1, 3), Fraction(1), Fraction(5)):
+            m = mu ** 2
+            NN, _, NF2 = self.turned(1 + 4 * m, 2 * mu, 4 + 4 * m, Fraction(1), Fraction(0), -2 * mu, Fraction(-2))
+            self.assertEqual(NN ** 2, Fraction(4, 3) * m * NF2)
+
+
 class CorpusBelowTheBound(unittest.TestCase):
+    CERTIFICATES = ("safe-tie-cycle-3-contacts", "safe-tie-cycle-7-contacts", "safe-cycle-8-contacts")
+
+    def test_the_independent_checker_accepts_that_they_loop_and_are_safe(self):
+        cases = [(name, claim) for name in self.CERTIFICATES for claim in ("cycle", "safe-by-condition")]
+        for name, claim in (*cases, ("frictionless-cycle-without-symmetry", "cycle")):
+            with self.subTest(name=name, claim=claim):
+                done = subprocess.run([sys.executable, ROOT / "certify/check_certificate.py",
+                                       ROOT / f"corpus/certificates/{name}.{claim}.json",
+                                       "--problem", ROOT / f"corpus/{name}.json"], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertIn(f"accepted: {claim} (", done.stdout)
+
     def is_below(self, name, least, most):
         problem, _ = corpus(name)
         witness = {"scaling": ["1"] * len(problem.b), "least": str(least), "most": str(most)}
