@@ -58,6 +58,7 @@ BLOCKS = [
     Block("certificates", "cli/tour.md", corpus.certificates),
     Block("records", "search/adversary/frontiers.md", corpus.records),
     Block("corpus", "corpus/cases.md", corpus.corpus),
+    Block("questions", "search/questions.md", search.questions),
     Block("endless", "search/adversary/frontiers.md", corpus.endless),
     Block("scenes-in-space", "search/adversary/frontiers.md", corpus.scenes_in_space),
     Block("robust-scenes", "search/adversary/frontiers.md", corpus.robust_scenes),
@@ -122,6 +123,9 @@ MEASUREMENTS = [
                 "How time and memory of the methods grow with the number of contacts."),
     Measurement("safe-loops", "minutes", search.safe_loops,
                 "A search for a loop in a safe problem, under `paper` and `apex=suspended`."),
+    Measurement("safe-ties", "minutes", search.safe_ties,
+                "A search for a loop in a safe problem of two contacts, under policies for which nobody has proved that "
+                "there is none."),
     Measurement("space", "long", bench.space, "The policies of section 5.6 side by side, in space."),
     Measurement("patches", "long", bench.patches,
                 "Failures in a million problems of ways to change what the published algorithm gives up, by "

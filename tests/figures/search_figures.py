@@ -4,9 +4,11 @@
 import collections
 import concurrent.futures
 import csv
+import fractions
 import json
 import math
 import os
+import re
 import sqlite3
 import tempfile
 
@@ -229,20 +231,28 @@ def misses(number, of):
     return f"{number}: {share(number, of)}"
 
 
-def safe_loops(program):
+def loops_of_safe_problems(program, problems, *words):
     """A search for a loop in a safe problem."""
     store = program.folder / "safe.store"
-    summary = program.json("search", "--generator", "small", "duplicates", "near-degenerate", "integers",
-                           "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4", "--policy", "paper", "apex=suspended",
-                           "--problems", program.size(13_000_000), "--store", store)
+    summary = program.json("search", *words, "--problems", program.size(problems), "--store", store)
     decided, safe = summary["safety_decided"], summary["safe"]
     loops, grave = found_loops(program, store), found_loops(program, store, ("safe-cycle",))
     low_high = share(safe, decided)
     return table(["a search for a loop in a safe problem", ""],
-                 [("problems, each under both policies", count(summary["problems"])),
+                 [("problems, each under every policy asked for", count(summary["problems"])),
                   ("loops, confirmed exactly", count(loops)),
                   ("of these in safe problems", count(grave)),
                   ("audited runs, and those of safe problems", f"{count(decided)}, {count(safe)}: {low_high}")])
+
+
+def safe_loops(program):
+    return loops_of_safe_problems(program, 13_000_000, "--generator", "small", "duplicates", "near-degenerate",
+                                  "integers", "--contacts", 2, 3, "--mu", "1/16", "1/8", "1/4",
+                                  "--policy", "paper", "apex=suspended")
+
+
+def safe_ties(program):
+    return loops_of_safe_problems(program, 20_000_000, "search/campaigns/safe-ties.json")
 
 
 # ---- Nights --------------------------------------------------------------------------------------------------
@@ -315,3 +325,69 @@ def of_a_search(program, problems):
             "rate": summary["problems"] / (sum(times.values()) - times["finishing"]),
             "finishing": times["finishing"] / max(1, finished), "frame": len(json.dumps(largest)) - signatures,
             "a signature": signatures / max(1, len(largest["signatures"]))}
+
+
+# ---- Questions -----------------------------------------------------------------------------------------------
+
+
+def measured_rows(name):
+    """The cells of the tables of a measured file, without their heads and rules."""
+    lines = (ROOT / f"reports/measured/{name}.md").read_text().splitlines()
+    rules = {i for i, line in enumerate(lines) if line.startswith("| ---")}
+    return [[cell.strip() for cell in line.strip("|").split("|")] for i, line in enumerate(lines)
+            if line.startswith("| ") and i not in rules and i + 1 not in rules]
+
+
+def number(cell):
+    """The first number of a cell."""
+    return int(re.match(r"[\d,]+", cell)[0].replace(",", ""))
+
+
+def column(name, at):
+    return [number(row[at]) for row in measured_rows(name)]
+
+
+def tried_in_records(program):
+    """Random problems beside the records, and how low the least of them are."""
+    records = {row["frontier"]: row for row in program.json("records", shown=False)}
+    for question, objective in (("steps", "steps"), ("periods", "period"), ("zero-runs", "zero-run"),
+                                ("give-ups", "give-ups"), ("pieces", "pieces"), ("descents", "descents")):
+        found = [records[name] for name in (f"{objective}-{n}-contacts" for n in range(2, 9)) if name in records]
+        yield (question, "records by contacts", count(sum(row["random_evaluations"] for row in found)),
+               "[frontiers](adversary/frontiers.md), 9")
+    for question, names in (("low-friction", ("friction-gravity-3-contacts", "friction-gravity-4-contacts")),
+                            ("one-body", ("friction-one-body-2-contacts",)),
+                            ("condition", ("condition-mu-1-2-contacts",)),
+                            ("condition-ties", ("condition-mu-1-3-contacts",))):
+        found = [records[name] for name in names]
+        values = (fractions.Fraction(row["value"]) for row in found)
+        lowest = (str(value) if value.denominator < 1000 else f"{float(value):.6g}" for value in values)
+        yield (question, f"the lowest: {', '.join(lowest)}", count(sum(row["random_evaluations"] for row in found)),
+               "[records](../corpus/records)")
+
+
+def questions(program):
+    """What was tried of the questions that a search can answer, with counts of the measured files and the records."""
+    def link(name):
+        return f"[{name}](../reports/measured/{name}.md)"
+
+    billion = {row[0]: row[1:] for row in measured_rows("ten-billion")}
+    complete = billion["given to complete driving; not solved by it, verified exactly"]
+    loops = billion["the published algorithm, policy `paper`, loops"]
+    audited = column("existence", 1)
+    drawn = sum(sum(column("sliding", at)) for at in (1, 2, 3, 4))
+    with_solution = sum(column("sliding", 6))
+    unsolved = sum(audited) - sum(column("existence", 2))
+    rows = [("existence", f"not solved: {unsolved}", count(sum(audited)), link("existence")),
+            ("complete-ends", f"not solved: {', '.join(count(number(cell.split('; ')[1])) for cell in complete)}",
+             " and ".join(count(number(cell)) for cell in complete), link("ten-billion")),
+            ("published-ends", f"loops: {count(number(loops[0]))}", billion["problems"][0], link("ten-billion")),
+            ("scenes", f"loops: {sum(column('scenes-by-mu', 3))}", count(sum(column("scenes-by-mu", 2))), link("scenes-by-mu")),
+            ("sliding", f"loops past a solution: {with_solution}", count(drawn), link("sliding"))]
+    for question, name in (("safe-ends", "safe-loops"), ("safe-two-end", "safe-ties")):
+        cells = dict(measured_rows(name))
+        rows.append((question, f"loops of safe problems: {cells['of these in safe problems']}",
+                     next(value for what, value in cells.items() if what.startswith("problems")), link(name)))
+    order = re.findall(r"(?m)^\| `([\w-]+)` \|.*\(campaigns/", (ROOT / "search/questions.md").read_text())
+    rows = sorted([*rows, *tried_in_records(program)], key=lambda row: order.index(row[0]))
+    return table(["id", "what came of it", "problems", "where"], [(f"`{name}`", *cells) for name, *cells in rows])
