@@ -115,17 +115,22 @@ Json ChannelJson(int discs, const Building& building, Choices& choices) {
 
 // ---- Their problems ------------------------------------------------------------------------------
 
-// At rest, at this instant. The scene is one island.
-template <class Kind>
-Problem ProblemIn(const Json& json) {
+// take(model) of the scene at rest, at this instant, which is one island.
+template <class Kind, class Take>
+auto FromModel(const Json& json, Take take) {
   const auto scene = Round(ParseScene<Kind>(json.dump(), "structured").scene);
   const auto model = Assemble(scene, FindContacts(scene));
   STICTION_CHECK(model.islands.size() == 1, "blocks that stand on each other are one island");
-  return model.Problem(0);
+  return take(model);
+}
+
+template <class Take>
+auto FromModel(const Building& building, const Json& json, Take take) {
+  return building.dimension == 2 ? FromModel<Plane>(json, take) : FromModel<Space>(json, take);
 }
 
 Problem ProblemOf(const Building& building, const Json& json) {
-  return building.dimension == 2 ? ProblemIn<Plane>(json) : ProblemIn<Space>(json);
+  return FromModel(building, json, [](const auto& model) { return model.Problem(0); });
 }
 
 }  // namespace
@@ -136,6 +141,11 @@ Problem StackProblem(int boxes, const Building& building, Choices& choices) {
 
 Problem WallProblem(int courses, int bricks, const Building& building, Choices& choices) {
   return ProblemOf(building, WallJson(courses, bricks, building, choices));
+}
+
+FactoredProblem<double> WallInFactors(int courses, int bricks, const Building& building, Choices& choices) {
+  return FromModel(building, WallJson(courses, bricks, building, choices),
+                   [](const auto& model) { return model.InFactors(0); });
 }
 
 Problem ChannelProblem(int discs, const Building& building, Choices& choices) {

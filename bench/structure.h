@@ -9,6 +9,7 @@
 #define STICTION_BENCH_STRUCTURE_H_
 
 #include "search/generators/choices.h"
+#include "solver/problem/factored.h"
 #include "solver/problem/problem.h"
 
 namespace stiction {
@@ -21,6 +22,8 @@ struct Building {
 
 ContactProblem<double> StackProblem(int boxes, const Building& building, Choices& choices);
 ContactProblem<double> WallProblem(int courses, int bricks, const Building& building, Choices& choices);
+// The same, of which A is not formed.
+FactoredProblem<double> WallInFactors(int courses, int bricks, const Building& building, Choices& choices);
 // Of the plane.
 ContactProblem<double> ChannelProblem(int discs, const Building& building, Choices& choices);
 

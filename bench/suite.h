@@ -46,7 +46,9 @@ inline constexpr std::array kSuites = {
           kMaxContacts, ""},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers",
           "of each number of contacts (default 400)", kMostOfAnySuite,
-          "full half planar planar-half space space-half structure growth-frictionless growth-planar"},
+          "full half planar planar-half space space-half structure growth-frictionless growth-planar "
+          "growth-walls "
+          "growth-walls-in-space"},
     Suite{"random", "of it, random problems by the number of contacts",
           "of each number of contacts (default 400)", kMostOfAnySuite,
           "full half planar planar-half space space-half"},
@@ -54,8 +56,8 @@ inline constexpr std::array kSuites = {
           kMostOfAnySuite, "structure"},
     Suite{"peers-extremes", "of it, the dials of extremes, judged over rationals",
           "of a setting of a dial (default 400)", kMostOfAnySuite, "extremes-frictionless extremes"},
-    Suite{"growth", "of it, time and memory at up to 2000 contacts", "", kMostOfAnySuite,
-          "growth-frictionless growth-planar"},
+    Suite{"growth", "of it, time and memory at up to 10,000 contacts", "", 100000,
+          "growth-frictionless growth-planar growth-walls growth-walls-in-space"},
     Suite{"engines", "scenes simulated beside Bullet, ODE, Box2D and MuJoCo, and what of them stands",
           "of the frames of a scene, at most (default: all)", kMostOfAnySuite, "engines"},
     Suite{"lemke", "a search beside Siconos's Lemke, at 2 to 5 contacts", "", 5, "lemke"},

@@ -55,6 +55,7 @@ void PrintRuns(const std::string& head, const std::string& asymmetry, const Json
   TextTable table({"method", "outcome", "error", "seconds"}, 2);
   for (const Json& run : facts["runs"]) {
     std::string method = run["method"].get<std::string>();
+    if (const std::string by = run.value("answered by", method); by != method) method += " (" + by + ")";
     if (run.contains("arithmetic")) method += ", " + run["arithmetic"].get<std::string>();
     std::string outcome = run["outcome"].get<std::string>();
     if (run.contains("reason")) outcome += ": " + run["reason"].get<std::string>();
@@ -187,8 +188,9 @@ const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
       curvature: {psd: truth | null, how: "bound" | "exact" | "factors", least?: rounded, most?: rounded},
       range: {"in-range": truth | null, distance: rounded, "rough distance": rounded, regular: truth},
       "meets assumptions"?: truth | null, symmetrized?: object,
-      runs: [{method: method | "none", arithmetic?: arithmetic, outcome: outcome | "not tried", seconds?: number,
-              statistics?: counters, residual?: rounded, certificate?: text, reason?: text, ...}]}])");
+      runs: [{method: method | "none", "answered by"?: method, arithmetic?: arithmetic,
+              outcome: outcome | "not tried", seconds?: number, statistics?: counters, residual?: rounded,
+              certificate?: text, reason?: text, ...}]}])");
   AddLimits(verb, o.limits);
 });
 

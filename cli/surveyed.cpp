@@ -121,6 +121,7 @@ double VerifiedResidual(const Problem& problem, const Eigen::VectorXd& f) {
 template <class Scalar>
 Json RunToJson(const Answer<Scalar>& answer, const Stopwatch& watch) {
   Json run = {{"method", answer.method}, {"arithmetic", Name(answer.arithmetic)}};
+  run["answered by"] = AnsweredBy(answer.method, answer.counters);
   run["outcome"] = Name(answer.outcome);
   run["seconds"] = watch.Seconds();
   run["statistics"] = CountersToJson(answer.counters);

@@ -20,7 +20,9 @@
 #ifndef STICTION_SOLVER_SOLVE_H_
 #define STICTION_SOLVER_SOLVE_H_
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -64,12 +66,15 @@ enum class Path : std::uint8_t {
 // The reason of an undecided run over enclosures.
 inline constexpr std::string_view kUnsureSign = "a sign is unsure";
 
+inline constexpr int kNeverFirst = std::numeric_limits<int>::max();
+
 // A method as it is built for one dimension; `run` is null where it is not.
 template <class Scalar>
 struct MethodIn {
   MethodRun<Scalar> run = nullptr;
   bool takes_all_kinds = false;  // otherwise bilateral and sliding contacts leave a problem first
   bool on_request = false;       // `auto` passes it over, though the row is automatic
+  int first_from = kNeverFirst;  // rows from which on `auto` tries it before all others
 };
 
 // A row of the table.
@@ -79,7 +84,7 @@ struct Method {
   std::string_view title;         // what the field calls it
   std::string_view source;        // section of the paper, or reference
   std::string_view ends;          // what its end proves
-  bool automatic = false;         // `auto` tries these in the order of the table until one solves or refutes
+  bool automatic = false;         // `auto` tries these, by default in the order of the table, until one decides
   Path path = Path::kNone;        // of the trace that it records
   std::string_view heading = {};  // of a run that is told
   MethodIn<Scalar> plane;
@@ -88,6 +93,7 @@ struct Method {
   const MethodIn<Scalar>& In(int dimension) const { return dimension == 2 ? plane : space; }
   bool IsBuilt(int dimension) const { return In(dimension).run != nullptr; }
   bool IsAutomatic(int dimension) const { return automatic && IsBuilt(dimension) && !In(dimension).on_request; }
+  bool IsFirst(int dimension, Eigen::Index rows) const { return rows >= In(dimension).first_from; }
 };
 
 // The methods over a scalar: here float, double, long double; exact ones in certify.

@@ -283,12 +283,15 @@ template <class Scalar>
 Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const SolveOptions& options,
                                   Trace<Scalar>* trace) {
   std::optional<Answer<Scalar>> first;
-  for (const Method<Scalar>& method : Methods<Scalar>()) {
-    if (!method.IsAutomatic(problem.dimension)) continue;
-    Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
-    if (answer.outcome == Outcome::kNoSolution && first) answer.ray = std::move(first->ray);
-    if (answer.Solved() || answer.outcome == Outcome::kNoSolution) return answer;
-    if (!first) first = std::move(answer);
+  for (const bool is_first : {true, false}) {
+    for (const Method<Scalar>& method : Methods<Scalar>()) {
+      const bool comes_first = method.IsFirst(problem.dimension, problem.rows());
+      if (comes_first != is_first || !(comes_first || method.IsAutomatic(problem.dimension))) continue;
+      Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
+      if (answer.outcome == Outcome::kNoSolution && first) answer.ray = std::move(first->ray);
+      if (answer.Solved() || answer.outcome == Outcome::kNoSolution) return answer;
+      if (!first) first = std::move(answer);
+    }
   }
   return first ? *std::move(first) : Unstarted(problem, Outcome::kUndecided, "no method is built for it");
 }

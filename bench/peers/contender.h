@@ -5,6 +5,7 @@
 #define STICTION_BENCH_PEERS_CONTENDER_H_
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "solver/problem/problem.h"
@@ -24,6 +25,8 @@ class Contender {
   virtual bool Solve(int index) = 0;
   // Forces of the last call of Solve; not timed.
   virtual Eigen::VectorXd Forces() const = 0;
+  // Of several methods the one that made them; empty where there is but one.
+  virtual std::string_view AnsweredBy() const { return {}; }
 };
 
 // Dantzig's pivoting with an updated factorization, the descendant of [Baraff94]. `friction`: by the friction

@@ -65,7 +65,7 @@ StructuredFamily Channel(int discs, const Building& building) {
 
 // ---- Scenes of the corpus, as a simulation meets them ---------------------------------------------
 
-constexpr int kFirstFrames = 10;
+constexpr int kSceneProblems = 100;  // and frames, at most
 
 bool IsAllOf(const Problem& problem, ContactKind kind) {
   return std::all_of(problem.contacts.begin(), problem.contacts.end(),
@@ -74,9 +74,9 @@ bool IsAllOf(const Problem& problem, ContactKind kind) {
 
 ContactKind KindOf(bool friction) { return friction ? ContactKind::kStatic : ContactKind::kFrictionless; }
 
-// Forces of the first frames, all islands: those of the most rows. On one thread.
+// Forces of the first frames, all islands: those of the most rows, until there are `count`. On one thread.
 template <class Kind>
-Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction) {
+Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction, std::size_t count) {
   Problems met;
   std::size_t rows = 1;
   SimulationOptions options;
@@ -90,23 +90,23 @@ Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction) {
   });
   tbb::task_arena one_thread(1);
   one_thread.execute([&] {
-    for (int frame = 0; frame < kFirstFrames; ++frame) simulation.Step();
+    for (int frame = 0; frame < kSceneProblems && met.size() < count; ++frame) simulation.Step();
   });
+  met.resize(std::min(met.size(), count));
   return met;
 }
 
 StructuredFamily SceneFamily(const std::filesystem::path& scenes, const std::string& name, int dimension,
                              bool friction) {
   return {name,
-          fmt::format("the first {} frames of {}.json", kFirstFrames, name),
+          fmt::format("the first frames of {}.json", name),
           dimension,
           friction,
-          80,
+          kSceneProblems,
           [=](int count, std::uint64_t) {
             const auto file = ReadAnyScene(scenes / (name + ".json"));
-            Problems met = std::visit([&](const auto& of) { return FirstProblems(of, friction); }, file);
+            Problems met = std::visit([&](const auto& of) { return FirstProblems(of, friction, count); }, file);
             STICTION_CHECK(!met.empty(), "a scene of the comparison has contacts of one kind");
-            met.resize(std::min<std::size_t>(met.size(), count));
             return met;
           }};
 }

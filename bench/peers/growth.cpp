@@ -14,9 +14,11 @@
 #include "bench/one_thread.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
+#include "bench/structure.h"
 #include "corpus/json.h"
 #include "search/generators/choices.h"
 #include "solver/complete/complete.h"
+#include "solver/numeric/body_newton.h"
 #include "solver/numeric/fast.h"
 #include "solver/published/published.h"
 
@@ -44,8 +46,8 @@ Json CountsOf(const Statistics& statistics) {
 
 // `-afresh`: every direction system is eliminated afresh. The first run takes the memory; the median of three
 // more, where they are short, is the time.
-template <class Solver>
-Growth Grow(const PeerProblem& problem, Solver solver) {
+template <class Problem, class Solver>
+Growth Grow(const Problem& problem, Solver solver) {
   Growth growth;
   const double held = Held();
   std::vector<double> seconds;
@@ -71,10 +73,10 @@ struct GrowthMethod {
   std::vector<double> log_size, log_time;
 };
 
-// Least squares over the sizes above 20.
-std::optional<double> Exponent(const GrowthMethod& method) {
-  const Eigen::Map<const Eigen::ArrayXd> x(method.log_size.data(), method.log_size.size());
-  const Eigen::Map<const Eigen::ArrayXd> y(method.log_time.data(), method.log_time.size());
+// Least squares.
+std::optional<double> Exponent(const std::vector<double>& log_size, const std::vector<double>& log_time) {
+  const Eigen::Map<const Eigen::ArrayXd> x(log_size.data(), log_size.size());
+  const Eigen::Map<const Eigen::ArrayXd> y(log_time.data(), log_time.size());
   if (x.size() < 2) return std::nullopt;
   return ((x - x.mean()) * (y - y.mean())).sum() / (x - x.mean()).square().sum();
 }
@@ -163,13 +165,50 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
     }
   }
   for (const GrowthMethod& method : methods) {
-    const auto exponent = Exponent(method);
+    const auto exponent = Exponent(method.log_size, method.log_time);
     exponents[method.name] = exponent ? Json(*exponent) : Json();
     if (!o.json && exponent) fmt::print("{}: time like contacts^{:.1f} above 20\n", method.name, *exponent);
   }
   return {{"name", friction ? "growth-planar" : "growth-frictionless"},
           {"points", points},
           {"exponents", exponents}};
+}
+
+// Square walls of about so many contacts, whose A is never formed, without a start.
+Json MeasureWallGrowth(int dimension, const PeersOptions& o) {
+  const int contacts_of_brick = dimension == 2 ? 4 : 8;
+  std::vector<int> sizes = {10, 30, 100, 300, 1000, 3000};
+  if (dimension == 2) sizes.push_back(10000);
+  if (!o.contacts.empty()) sizes = o.contacts;
+  const std::string name = dimension == 2 ? "growth-walls" : "growth-walls-in-space";
+  if (!o.json) fmt::print("\n{}, in factors, one problem per size: milliseconds, megabytes, counts\n", name);
+  progress::Begin("growth", static_cast<std::int64_t>(sizes.size()));
+  Json points = Json::array();
+  std::vector<double> log_size, log_time;
+  for (const int size : sizes) {
+    progress::Done();
+    progress::Clear();
+    const int width = std::max(2, static_cast<int>(std::ceil(std::sqrt(size / double(contacts_of_brick)))));
+    Choices choices(ProblemSeed(o.seed, 6000 + width, 0));
+    const auto wall = WallInFactors(width, width, {.dimension = dimension}, choices);
+    const int contacts = static_cast<int>(wall.contacts.size());
+    const Growth growth = Grow(wall, BodyNewton<double>());
+    if (growth.solved) {
+      log_size.push_back(std::log(contacts));
+      log_time.push_back(std::log(growth.seconds));
+    }
+    points.push_back(GrowthJson("newton-bodies", contacts, growth));
+    points.back()["velocities"] = wall.w.size();
+    if (o.json) continue;
+    fmt::print("{:6} contacts {:12.4f} {:9.3f}   {} points, {} steps, {} factorizations{}\n", contacts,
+               1e3 * growth.seconds, 1e-6 * growth.bytes, growth.counts["points"].get<std::int64_t>(),
+               growth.counts["newton_steps"].get<std::int64_t>(),
+               growth.counts["factorizations"].get<std::int64_t>(), growth.solved ? "" : "   not solved");
+  }
+  const auto exponent = Exponent(log_size, log_time);
+  return {{"name", name},
+          {"points", points},
+          {"exponents", {{"newton-bodies", exponent ? Json(*exponent) : Json()}}}};
 }
 
 }  // namespace stiction

@@ -81,6 +81,8 @@ Json MeasureNamed(const std::string& name, const PeersOptions& o) {
   if (name == "engines") return MeasureEngines(o);
   if (name == "growth-frictionless") return MeasureGrowth(false, o);
   if (name == "growth-planar") return MeasureGrowth(true, o);
+  if (name == "growth-walls") return MeasureWallGrowth(2, o);
+  if (name == "growth-walls-in-space") return MeasureWallGrowth(3, o);
   if (name == "extremes") return MeasureExtremes(true, o);
   if (name == "extremes-frictionless") return MeasureExtremes(false, o);
   return MeasureTable(name, o);
@@ -163,7 +165,8 @@ int RunPeers(const PeersOptions& o) {
 
 std::vector<std::string> UsualTables() {
   std::vector<std::string> tables = PeerTableNames();
-  tables.insert(tables.end(), {"structure", "growth-frictionless", "growth-planar"});
+  tables.insert(tables.end(),
+                {"structure", "growth-frictionless", "growth-planar", "growth-walls", "growth-walls-in-space"});
   return tables;
 }
 

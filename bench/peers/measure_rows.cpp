@@ -90,6 +90,7 @@ Score CheckAnswers(Contender& contender, Judge judge, const std::vector<PeerProb
     residuals.push_back(ResidualOf(contender, problems[k]));
     const bool wrong = judge == Judge::kClaim ? !claims : residuals.back() > kWrong;
     ++answers.tried;
+    if (const std::string_view by = contender.AnsweredBy(); !by.empty()) ++answers.by[std::string(by)];
     answers.wrong += wrong;
     answers.silent += wrong && claims;
     answers.refused += !claims;
@@ -211,6 +212,7 @@ Json CellJson(const PeerRow& row, const PeerCell& cell) {
                {"share", answers.share()},
                {"residual", NumberJson(answers.residual)},
                {"worst", NumberJson(answers.worst)}});
+  if (!answers.by.empty()) json["answered by"] = answers.by;
   return json;
 }
 

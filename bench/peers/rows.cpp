@@ -10,6 +10,7 @@
 
 #include "bench/peers/native_lu.h"
 #include "bench/plain_gauss.h"
+#include "certify/exact/answer_json.h"
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"
 #include "solver/numeric/coulomb.h"
@@ -102,6 +103,9 @@ class CallContender : public OneOfOurs {
     return answer_.Solved();
   }
   Eigen::VectorXd Forces() const override { return answer_.f; }
+  std::string_view AnsweredBy() const override {
+    return method_ == kAutomatic ? stiction::AnsweredBy(answer_.method, answer_.counters) : std::string_view();
+  }
 
  private:
   std::string method_;

@@ -15,6 +15,7 @@
 #define STICTION_BENCH_PEERS_ROWS_H_
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,7 @@ struct PeerRow {
 struct Score {
   int tried = 0, wrong = 0, silent = 0, refused = 0;
   double residual = 0, worst = 0;  // median, most; infinite where one is not a number
+  std::map<std::string, int> by;   // of `auto`: the method that answered, how often
 
   double share() const { return tried > 0 ? 1 - static_cast<double>(wrong) / tried : 0; }  // solved
 };

@@ -36,6 +36,7 @@ std::string AnswersText(const PeerRow& row, const Score& answers) {
                                  100 * answers.share(), answers.tried);
   if (answers.silent > 0) text += fmt::format(", {} silently wrong", answers.silent);
   if (answers.refused > 0) text += fmt::format(", {} called failures", answers.refused);
+  for (const auto& [method, count] : answers.by) text += fmt::format(", {} by {}", count, method);
   return text;
 }
 

@@ -61,6 +61,7 @@ Json MeasureLemke(const PeersOptions& o);
 
 // Time, memory and counts by the number of contacts (growth.cpp).
 Json MeasureGrowth(bool friction, const PeersOptions& o);
+Json MeasureWallGrowth(int dimension, const PeersOptions& o);
 
 // Scenes simulated beside engines (engines.cpp).
 std::vector<std::string> EngineSceneNames();

@@ -12,9 +12,6 @@ namespace stiction {
 
 namespace {
 
-// From here on the path itself costs more, even with certified signs, than the equations of its end.
-constexpr int kFewRows = 24;
-
 // Of an answer that is solved.
 Existence Solved(const ExactProblem& problem, const Answer<Rational>& answer) {
   if (!answer.bound) return {SolutionCertificate(problem, answer.f), answer.method};
@@ -38,7 +35,7 @@ Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const
 Existence DecideExistence(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
                           FrictionLaw law) {
   if (problem.dimension == 3) return DecideInSpace(problem, limits, options, law);
-  if (problem.rows() <= kFewRows) {
+  if (problem.rows() < kCellsFirst) {
     const ExactAnswer answer = RunCompleteFiltered(problem, limits);
     if (answer.Solved()) return Solved(problem, answer);
   } else {

@@ -69,6 +69,12 @@ Json CountersToJson(const std::vector<Counter>& counters) {
   return json;
 }
 
+std::string_view AnsweredBy(std::string_view method, const std::vector<Counter>& counters) {
+  if (method != "fast") return method;
+  if (ValueOf(counters, "fallbacks") > 0) return "complete";
+  return ValueOf(counters, "published") > 0 ? "baraff" : method;
+}
+
 Json SolutionToJson(const Solution& solution, int dimension) {
   Json json =
       std::visit([dimension](const auto& answer) { return AnswerToJson(answer, dimension); }, solution.answer);

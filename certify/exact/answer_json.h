@@ -51,6 +51,9 @@ inline constexpr std::string_view kProofOfSets =
 
 Json CountersToJson(const std::vector<Counter>& counters);
 
+// The row of the table that made an answer: `method`, or what stands behind it, as its counters tell.
+std::string_view AnsweredBy(std::string_view method, const std::vector<Counter>& counters);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_EXACT_ANSWER_JSON_H_

@@ -26,6 +26,10 @@ extern template const Method<Rational>* FindMethod(std::string_view);
 // What is built over doubles alone, beside the table of the library: some in a process of its own.
 std::span<const Method<double>> MethodsOverDoubles();
 
+// Rows from which on `auto` over rationals begins with the cells that doubles find (method fast): the path
+// itself costs more there, even with certified signs, than the equations of its end.
+inline constexpr int kCellsFirst = 16;
+
 enum class KeepTrace { kNo, kYes };
 
 struct SolveRequest {

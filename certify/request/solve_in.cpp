@@ -233,12 +233,13 @@ std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const Solv
   return open ? std::nullopt : std::optional(std::move(answer));
 }
 
-// `auto` is complete driving, and what rationals try besides where that solves nothing.
+// `auto` is complete driving, and what rationals try besides where that solves nothing, or of many rows.
 Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request) {
   if (request.method == kAutomatic) {
     SolveRequest complete = request;
     complete.method = "complete";
-    Solution solution = SolveFiltered(problem, complete);
+    Solution solution;
+    if (problem.rows() < kCellsFirst) solution = SolveFiltered(problem, complete);
     if (solution.outcome() != Outcome::kSolved) {
       ExactAnswer answer = SolveRestingExactly(problem, request);
       answer.rung = Rung::kExact;

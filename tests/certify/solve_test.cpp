@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "certify/exact/answer_json.h"
+#include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
 #include "corpus/rounded.h"
 #include "search/generators/choices.h"
@@ -183,6 +185,48 @@ TEST_CASE("solve: auto ends in a solution and names the method") {
     const Solution solution = SolveIn(problem, {.arithmetic = arithmetic});
     CHECK(solution.outcome() == Outcome::kSolved);
     std::visit([](const auto& answer) { CHECK(FindMethodFacts(answer.method) != nullptr); }, solution.answer);
+  }
+}
+
+// Copies of a problem that know nothing of each other.
+ExactProblem Copies(const ExactProblem& problem, int count) {
+  const int rows = problem.rows();
+  ExactProblem sum;
+  sum.A = ExactMatrix::Zero(count * rows, count * rows);
+  sum.b.resize(count * rows);
+  for (int k = 0; k < count; ++k) {
+    sum.contacts.insert(sum.contacts.end(), problem.contacts.begin(), problem.contacts.end());
+    sum.A.block(k * rows, k * rows, rows, rows) = problem.A;
+    sum.b.segment(k * rows, rows) = problem.b;
+  }
+  return sum;
+}
+
+TEST_CASE("solve: of many rows auto tries the cells of doubles first, over rationals and certified") {
+  const ExactProblem few = ReferenceProblem();
+  const ExactProblem many = Copies(few, (kCellsFirst + few.rows() - 1) / few.rows());
+  CHECK(Solve(few).method == "complete");
+  for (const Arithmetic arithmetic : {Arithmetic::kExact, Arithmetic::kFiltered}) {
+    const auto exact = std::get<ExactAnswer>(SolveIn(many, {.arithmetic = arithmetic}).answer);
+    CHECK(exact.method == "fast");
+    CHECK(AnsweredBy(exact.method, exact.counters) == "fast");
+    CHECK_FALSE(FindViolation(many, exact.f));
+  }
+}
+
+TEST_CASE(
+    "solve: behind the cells of doubles stand the published algorithm, and complete driving where it loops") {
+  const Dial beyond_doubles = {400, 400, 0};
+  const ExactProblem loops = ReferenceProblem(), ends = MakeProblem({1}, {{2, 1}, {1, 3}}, {-1, 1});
+  REQUIRE(Solve(loops, "baraff").outcome == Outcome::kCycle);
+  REQUIRE(Solve(ends, "baraff").Solved());
+  for (const auto& [problem, by] : {std::pair{loops, "complete"}, std::pair{ends, "baraff"}}) {
+    const ExactProblem turned = Turned(problem, beyond_doubles);
+    const Answer<Rational> answer = Solve(turned, "fast");
+    REQUIRE(answer.Solved());
+    CHECK(answer.method == "fast");
+    CHECK(AnsweredBy(answer.method, answer.counters) == by);
+    CHECK_FALSE(FindViolation(turned, answer.f));
   }
 }
 

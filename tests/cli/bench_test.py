@@ -174,6 +174,8 @@ class Frictionless(cli.TestCase):
 
 
 RANDOM = ["full", "half", "planar", "planar-half", "space", "space-half"]
+GROWTH = ["growth-frictionless", "growth-planar"]
+WALLS = ["growth-walls", "growth-walls-in-space"]
 FAMILIES = {"stack-10": (40, 30), "wall-6x5-masses": (180, 81), "wall-6x5-masses-smooth": (90, 54),
             "nearly-dependent": (16, 8), "stack": (20, 15), "space-stack-5": (60, 30)}  # rows and rank
 
@@ -249,7 +251,7 @@ class Peers(cli.TestCase):
                     self.assertEqual(cell["setting"] != "", method.endswith(", CFM") or "NSN-AC" in method)
 
     def test_no_answer_of_the_fast_method_is_wrong_on_random_problems(self):
-        self.assertEqual(set(self.tables), {*RANDOM, "structure", "growth-frictionless", "growth-planar"})
+        self.assertEqual(set(self.tables), {*RANDOM, "structure", *GROWTH, *WALLS})
         for name in RANDOM:
             rows = {row["name"]: row for row in self.tables[name]["rows"]}
             self.assertIn("Siconos NSN-AC 1e-9" if "space" in name else "published", rows)
@@ -259,8 +261,9 @@ class Peers(cli.TestCase):
                     self.assertLessEqual(cell["residual"], 1e-8)
             for row in rows.values():
                 self.assertEqual([cell["contacts"] for cell in row["cells"]], [2, 5])
-        for name in ["growth-frictionless", "growth-planar"]:
-            self.assertTrue(all(point["solved"] for point in self.tables[name]["points"] if point["method"] == "fast"))
+        for name, method in [*((name, "fast") for name in GROWTH), *((name, "newton-bodies") for name in WALLS)]:
+            points = [point for point in self.tables[name]["points"] if point["method"] == method]
+            self.assertTrue(points and all(point["solved"] for point in points), name)
 
     def test_problems_with_structure_stand_beside_the_random_ones(self):
         self.assertEqual({name: (family["rows"], family["rank"]) for name, family in self.families.items()}, FAMILIES)
@@ -302,8 +305,11 @@ class Peers(cli.TestCase):
         done = cli.run("bench", "--suite", "growth", "--json", "--contacts", 3, 8, "--repeat", 1)
         self.assertEqual(done.code, 0, done.err)
         tables = done.json()["tables"]
-        self.assertEqual([table["name"] for table in tables], ["growth-frictionless", "growth-planar"])
-        for table in tables:
+        self.assertEqual([table["name"] for table in tables], [*GROWTH, *WALLS])
+        for table in tables[2:]:
+            in_space = table["name"].endswith("space")
+            self.assertEqual([point["contacts"] for point in table["points"]], [24, 24] if in_space else [12, 12])
+        for table in tables[:2]:
             points = {(point["method"], point["contacts"]): point for point in table["points"]}
             for method in ["published", "complete"]:
                 for contacts in [3, 8]:

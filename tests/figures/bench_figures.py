@@ -139,8 +139,11 @@ def lanes(program):
 
 
 def growth(program):
-    parts = []
+    parts, walls = [], []
     for group in program.bench("growth")["tables"]:
+        if "walls" in group["name"]:
+            walls += walls_rows(group)
+            continue
         points = {(point["method"], point["contacts"]): point for point in group["points"]}
         sizes = sorted({point["contacts"] for point in group["points"]})
         rows = [growth_row(points, n) for n in sizes]
@@ -150,7 +153,16 @@ def growth(program):
                             "microseconds a step", "the same afresh", "drives a contact", "pivots a contact",
                             "megabytes", "`complete`: milliseconds", "`fast`: milliseconds", "megabytes"], rows)
                      + "\n\n" + prose(f"Time above 20 contacts like: {power}."))
-    return "\n\n".join(parts) + "\n\n" + prose("One problem a size")
+    head = ["square walls in factors, `newton-bodies`, contacts", "velocities", "milliseconds", "megabytes",
+            "factorizations", ""]
+    return "\n\n".join(parts) + "\n\n" + table(head, walls) + "\n\n" + prose("One problem a size")
+
+
+def walls_rows(group):
+    where = " in space" if group["name"].endswith("space") else ""
+    return [(f"{point['contacts']:,}{where}", f"{point['velocities']:,}", three(1e3 * point["seconds"]),
+             three(point["bytes"] / 1e6), point["counts"]["factorizations"], "" if point["solved"] else "not solved")
+            for point in group["points"]]
 
 
 def growth_row(points, n):
@@ -318,8 +330,9 @@ def spread_table(families):
             cell = cells[name]
             if not cell["capped"]:
                 rows.append((family["title"], f"`{name}`", spread(cell["ratios"]), three(cell["ratio_90"]),
-                             three(1e6 * cell["processor_seconds"][1]), f"{percent(cell['share'])} of {cell['tried']}"))
-    return table(["problems", "", "time / LU", "90 %", "processor time, microseconds", "solved"], rows)
+                             three(1e6 * cell["processor_seconds"][1]), f"{percent(cell['share'])} of {cell['tried']}",
+                             ", ".join(f"{count} `{method}`" for method, count in cell.get("answered by", {}).items())))
+    return table(["problems", "", "time / LU", "90 %", "processor time, microseconds", "solved", "answered by"], rows)
 
 
 def families_text(program, names):
