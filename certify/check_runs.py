@@ -26,6 +26,7 @@ sys.dont_write_bytecode = True  # where it is installed, nothing is to be left b
 
 from certificate_reader import (Cost, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
                                 times)
+import check_runs_in_space
 
 # --- Problems and policies -----------------------------------------------------------
 
@@ -70,16 +71,17 @@ TIE_ORDER = ("C", "NC", "CF", "NC-", "NC+")
 
 
 
-def read_policy(text, place="policy"):
-    """A value for every switch, from a policy written canonically."""
+def read_policy(text, place="policy", switches=None):
+    """A value for every switch, from a policy written canonically; without `switches` one of the plane."""
+    switches, of = switches or SWITCHES, "of a policy in space" if switches else "of a planar policy"
     need(type(text) is str, place, text, "a policy")
-    policy = {switch: values[0] for switch, values in SWITCHES.items()}
+    policy = {switch: values[0] for switch, values in switches.items()}
     for part in text.split(",") if text != "paper" else []:
         switch, _, value = part.partition("=")
-        need(value in SWITCHES.get(switch, ()), place, text, "switches of a planar policy")
+        need(value in switches.get(switch, ()), place, text, f"switches {of}")
         policy[switch] = value
     canonical = ",".join(f"{switch}={value}" for switch, value in policy.items()
-                         if value != SWITCHES[switch][0]) or "paper"
+                         if value != switches[switch][0]) or "paper"
     need(text == canonical, place, text, f"it written canonically: {canonical}")
     return policy
 
@@ -436,13 +438,22 @@ def check_runs(problem, witness):
     return ", ".join(facts)
 
 
+def check_cycle(problem, witness):
+    """A loop: of runs in the plane, or of one in space."""
+    if "runs" in witness:
+        return check_runs(problem, witness)
+    policy = read_policy(witness["policy"], "$.witness.policy", check_runs_in_space.SWITCHES)
+    return check_runs_in_space.check_loop(problem, witness, policy)
+
+
 def check_runs_alone(problem, witness):
     return f"its runs only, {check_runs(problem, witness)}"
 
 
 # --- The program -------------------------------------------------------------------
 
-CLAIMS = {"cycle": ("runs", check_runs), "counterexample": ("L D f a runs", check_runs_alone)}
+CYCLE = (" | ".join(["runs", *check_runs_in_space.KEYS]), check_cycle)
+CLAIMS = {"cycle": CYCLE, "counterexample": ("L D f a runs", check_runs_alone)}
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Run the published algorithm again, as stiction certificates say that it runs.",

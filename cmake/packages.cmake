@@ -37,7 +37,8 @@ install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion
         COMPONENT program)
 install(PROGRAMS certify/check_certificate.py certify/check_runs.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
-install(FILES certify/certificate_reader.py DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
+install(FILES certify/certificate_reader.py certify/check_runs_in_space.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/certify COMPONENT program)
 install(DIRECTORY corpus/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stiction/corpus COMPONENT program
         FILES_MATCHING PATTERN "*.json" PATTERN "formats" EXCLUDE PATTERN "large" EXCLUDE PATTERN "peers" EXCLUDE
                        PATTERN "space" EXCLUDE)

@@ -93,7 +93,7 @@ class Package(cli.TestCase):
         for finding in manifest["findings"]:
             self.assertEqual(finding["met"], met[finding["signature"]])
         self.assertEqual(manifest["campaign"]["seed"], 1)
-        for name in ("certificate_reader.py", "check_certificate.py", "check_runs.py"):
+        for name in ("certificate_reader.py", "check_certificate.py", "check_runs.py", "check_runs_in_space.py"):
             self.assertEqual((self.package / "checkers" / name).read_bytes(), (cli.ROOT / "certify" / name).read_bytes())
         report = self.folder / "report"
         self.succeeds("report", self.store, "-o", report)

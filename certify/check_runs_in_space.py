@@ -1,0 +1,819 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks certificates of loops in space: runs section 5.6 of [Baraff94] again, over intervals with gradients.
+
+What a run is, is fixed in solver/published/readings.md, 8; certify/certificates.md, Loops in space, says what stands
+in a certificate and why it proves a loop. Called by check_runs.py.
+
+  N1, F1, ...       normal and friction of each contact; rows fN, fx, fy of f and a; no friction: fN alone
+  d                 the recorded direction of a contact in NCF
+  C NC CF NCF half  the index sets; half: ax = 0 is kept by fx while fy is driven
+  Number            a number between two ends, integers over 2^bits, and between which ends its derivatives are
+  memory            what an outer state remembers beyond its sets: resting forces, recorded directions
+
+Every sign that decides is proved; where one is not, Unsure is raised and nothing is guessed. What is zero by the
+algorithm, not by its ends, is set to zero. Two of these zeros need to know where the run has been:
+
+  line    Since aF of a contact in NCF was zero, f has moved along one direction only. So aF = t da with one number t,
+          and both components are zero where one is.
+  trail   Since a normal left C, f has moved along one direction only. Where its aN is zero again, it is back.
+
+Trusted: Python and this file, which was written from readings.md and shares no code or tables with the C++.
+"""
+
+from fractions import Fraction
+from itertools import count
+from math import isqrt
+
+from certificate_reader import Cost, brief, integer, items, need, one_of, reduced_operations, vector
+
+MOST_BITS = 4096
+SWITCHES = {  # the value of the reference policy `paper` first; those of the plane that have a meaning in space
+    "scan": ("lowest", "normals-first", "most-violated", "highest"),
+    "resume": ("restart", "round"),
+    "admit": ("lazy", "eager"),
+    "give-up": ("first", "previous", "second"),
+    "drop": ("contact", "variable"),
+    "rezero": ("rescan", "continue"),
+    "ties": ("sets", "contacts"),
+    "slip": ("literal", "redirect"),
+}
+KEYS = ("policy kind bits start period word", "policy kind bits start period word charts centre radii")
+
+
+class Unsure(Exception):
+    """A sign that the ends do not tell."""
+
+
+class End(Exception):
+    """The run ends: its outcome."""
+
+
+# --- Numbers -----------------------------------------------------------------------
+
+def product(a, b, c, d):
+    """Ends of [a, b] [c, d], over 2^bits."""
+    if a >= 0:
+        low, high = (a if c >= 0 else b) * c, (b if d >= 0 else a) * d
+    elif b <= 0:
+        low, high = (a if d >= 0 else b) * d, (b if c >= 0 else a) * c
+    else:
+        low, high = min(a * d, b * c), max(a * c, b * d)
+    return low >> Number.bits, -(-high >> Number.bits)
+
+
+class Number:
+    """low, high: integers over 2^bits. slopes: ends of the derivatives by the coordinates of a box; None: all zero."""
+
+    bits = 256
+    __slots__ = ("low", "high", "slopes")
+
+    def __init__(self, low, high, slopes=None):
+        self.low, self.high, self.slopes = low, high, slopes
+
+    @classmethod
+    def around(cls, x, radius=0):
+        low, high = (x - radius) * (1 << cls.bits), (x + radius) * (1 << cls.bits)
+        return cls(low.numerator // low.denominator, -(-high.numerator // high.denominator))
+
+    def is_zero(self):
+        """Whether it is zero everywhere in the box, and known to be."""
+        return self.low == 0 == self.high and (self.slopes is None or all(s == (0, 0) for s in self.slopes))
+
+    def __neg__(self):
+        return Number(-self.high, -self.low, self.slopes and [(-b, -a) for a, b in self.slopes])
+
+    def __add__(self, other):
+        slopes = self.slopes or other.slopes
+        if self.slopes and other.slopes:
+            slopes = [(a + c, b + d) for (a, b), (c, d) in zip(self.slopes, other.slopes)]
+        return Number(self.low + other.low, self.high + other.high, slopes)
+
+    def __sub__(self, other):
+        return self + -other
+
+    def __mul__(self, other):
+        if self.is_zero() or other.is_zero():
+            return ZERO
+        parts = [[product(x.low, x.high, *s) for s in y.slopes]
+                 for x, y in ((self, other), (other, self)) if y.slopes]
+        slopes = parts[0] if parts else None
+        if len(parts) == 2:
+            slopes = [(a + c, b + d) for (a, b), (c, d) in zip(*parts)]
+        return Number(*product(self.low, self.high, other.low, other.high), slopes)
+
+    def inverse(self):
+        if self.low <= 0 <= self.high:
+            raise Unsure("a divisor")
+        one = 1 << 2 * self.bits
+        low, high = one // self.high, -(-one // self.low)
+        if self.slopes is None:
+            return Number(low, high)
+        a, b = product(low, high, low, high)
+        return Number(low, high, [product(-b, -a, *s) for s in self.slopes])
+
+    def __truediv__(self, other):
+        return self if self.is_zero() else self * other.inverse()
+
+    def root(self):
+        if self.is_zero():
+            return self
+        if self.low <= 0:
+            raise Unsure("a root")
+        low, square = isqrt(self.low << self.bits), self.high << self.bits
+        high = isqrt(square)
+        high += high * high < square
+        if self.slopes is None:
+            return Number(low, high)
+        if low == 0:
+            raise Unsure("the slope of a root")
+        over = Number(low, high).inverse()
+        half = over.low >> 1, -(-over.high >> 1)
+        return Number(low, high, [product(*half, *s) for s in self.slopes])
+
+
+ZERO = Number(0, 0)
+
+
+def one():
+    return Number(1 << Number.bits, 1 << Number.bits)
+
+
+def sign(x):
+    if x.is_zero():
+        return 0
+    if x.low > 0:
+        return 1
+    if x.high < 0:
+        return -1
+    raise Unsure("a sign")
+
+
+def inner(x, y):
+    return sum((u * v for u, v in zip(x, y) if not (u.is_zero() or v.is_zero())), ZERO)
+
+
+def scaled(t, x):
+    return [t * u for u in x]
+
+
+def plus(x, y):
+    return [v if u.is_zero() else u if v.is_zero() else u + v for u, v in zip(x, y)]
+
+
+def vanishes(x):
+    return all(u.is_zero() for u in x)
+
+
+def solve(M):
+    """x with M x = r, given rows [M | r] of a matrix that is proved to be regular."""
+    M, free, order = [list(row) for row in M], list(range(len(M))), []
+
+    def size(x):
+        return max(x.low, -x.high)
+
+    for c in range(len(M)):
+        best = max(free, key=lambda i: size(M[i][c]))
+        if size(M[best][c]) <= 0:
+            raise Unsure("a matrix that may be singular")
+        free.remove(best)
+        order.append(best)
+        over = M[best][c].inverse()
+        M[best] = [x * over for x in M[best]]
+        for i, row in enumerate(M):
+            if i != best and not row[c].is_zero():
+                M[i] = [x - row[c] * y if k > c else ZERO for k, (x, y) in enumerate(zip(row, M[best]))]
+    return [M[i][-1] for i in order]
+
+
+# --- Axes in a tangent plane ---------------------------------------------------------
+
+# A unit vector and a name: of equal names the vectors are equal, up to their sign.
+fresh = count()
+
+
+def axis_along(u):
+    """(length, vector, name) of u, which is not zero."""
+    for k, name in enumerate("xy"):
+        if u[1 - k].is_zero():
+            way = sign(u[k])
+            if way == 0:
+                raise Unsure("a direction of nothing")
+            back = way < 0
+            unit = [ZERO, ZERO]
+            unit[k] = -one() if back else one()
+            return (-u[k] if back else u[k]), unit, name
+    length = inner(u, u).root()
+    over = length.inverse()
+    return length, scaled(over, u), next(fresh)
+
+
+def across(axis, name):
+    """The perpendicular axis."""
+    return [-axis[1], axis[0]], {"x": "y", "y": "x"}.get(name, ("across", name))
+
+
+def opposite(u):
+    return [-x for x in u]
+
+
+# --- The algorithm (readings, section 8) --------------------------------------------
+
+class Space:
+    """A problem of dimension 3, enclosed."""
+
+    def __init__(self, problem):
+        need(problem.dimension == 3, "$.problem.dimension", problem.dimension, "3")
+        self.first, self.mu, rows = [], [], 0
+        for i, contact in enumerate(problem.contacts):
+            need(contact.kind in ("static", "frictionless"), f"$.problem.contacts[{i}].kind", contact.kind,
+                 "static or frictionless: others are not supported by this checker for this claim")
+            self.first.append(rows)
+            self.mu.append(None if contact.mu is None else Number.around(contact.mu))
+            rows += 1 if contact.mu is None else 3
+        self.A = [[Number.around(x) for x in row] for row in problem.A]
+        self.b = [Number.around(x) for x in problem.b]
+
+    def times(self, f):
+        used = [j for j, x in enumerate(f) if not x.is_zero()]
+        return [sum((row[j] * f[j] for j in used if not row[j].is_zero()), ZERO) for row in self.A]
+
+
+class Run:
+    """A run under one policy: its state, and what is known of where it has been."""
+
+    def __init__(self, space, policy, on_step=lambda step: None):
+        """on_step(step) is called after every step, with its text as a certificate has it."""
+        contacts, rows = len(space.mu), len(space.b)
+        self.space, self.policy, self.on_step = space, policy, on_step
+        self.N, self.F = ["none"] * contacts, ["none"] * contacts
+        self.f, self.a = [ZERO] * rows, list(space.b)
+        self.d, self.d_name = [None] * contacts, [None] * contacts
+        self.turned = [False] * contacts  # away: is to be driven anew against its acceleration
+        self.on_circle = [False] * contacts  # abs(fF) = mu fN is known, though the contact is not in NCF
+        self.line, self.trail = [None] * contacts, None
+        self.last, self.drives = None, 0
+
+    def copy(self):
+        other = object.__new__(Run)
+        other.__dict__ = {key: list(x) if type(x) is list else x for key, x in self.__dict__.items()}
+        return other
+
+    def tangent(self, values, i):
+        row = self.space.first[i]
+        return values[row + 1:row + 3]
+
+    def bound(self, i, values=None):
+        return self.space.mu[i] * (values or self.f)[self.space.first[i]]
+
+    # What a state is.
+
+    def sets(self):
+        last = self.last if self.policy["resume"] == "round" else None
+        return (*self.N, *self.F, *self.turned, last)
+
+    def memory(self):
+        """(row, contact) of resting forces, (None, contact) of recorded directions."""
+        found = []
+        for i, row in enumerate(self.space.first):
+            if self.N[i] == "none" and not self.f[row].is_zero():
+                found.append((row, i))
+            if self.F[i] == "NCF":
+                found.append((None, i))
+            elif self.F[i] == "none" and self.space.mu[i] and not vanishes(self.tangent(self.f, i)):
+                found += [(row + 1, i), (row + 2, i)]
+        return found
+
+    def coordinates(self, charts):
+        """Of the memory: forces; of d the tangent of half its angle, in chart -1 of the opposite angle."""
+        for (row, i), chart in zip(self.memory(), charts):
+            if row is None:
+                x, y = self.d[i] if chart > 0 else opposite(self.d[i])
+                yield y / (one() + x)
+            else:
+                yield self.f[row]
+
+    def standing(self, values, charts, on_step):
+        """A run in the sets of this one, with other coordinates: the sets decide all other forces."""
+        other = Run(self.space, self.policy, on_step)
+        other.N, other.F, other.turned, other.last = list(self.N), list(self.F), list(self.turned), self.last
+        f = [ZERO] * len(self.f)
+        for (row, i), x, chart in zip(self.memory(), values, charts):
+            if row is None:
+                over = (one() + x * x).inverse()
+                d = [(one() - x * x) * over, (x + x) * over]
+                other.d[i], other.d_name[i] = d if chart > 0 else opposite(d), next(fresh)
+            else:
+                f[row] = x
+        for i, row in enumerate(self.space.first):
+            if other.F[i] == "NCF" and other.N[i] != "C":
+                f[row + 1:row + 3] = scaled(self.bound(i, f), other.d[i])
+        a = plus(self.space.times(f), self.space.b)
+        unknown, forces = other.unknowns()
+        other.f, other.a = other.follow(unknown, forces, f, a)
+        for i, row in enumerate(self.space.first):
+            if other.F[i] == "NCF":
+                other.f[row + 1:row + 3] = scaled(other.bound(i), other.d[i])
+        other.check_sets()
+        return other
+
+    def check_sets(self):
+        """That what the sets keep holds, and strictly."""
+        for i, row in enumerate(self.space.first):
+            holds = {"C": lambda: sign(self.f[row]) >= 0, "NC": lambda: sign(self.a[row]) >= 0}
+            if self.N[i] in holds and not holds[self.N[i]]():
+                raise Unsure("a normal that is not of its set")
+            if self.F[i] == "CF":
+                fF = self.tangent(self.f, i)
+                if sign(self.bound(i) - inner(fF, fF).root()) <= 0:
+                    raise Unsure("a force that is not within its circle")
+
+    # Main loop.
+
+    def outer(self):
+        """One turn of the main loop."""
+        if self.policy["admit"] == "eager":
+            for i, row in enumerate(self.space.first):
+                if self.N[i] == "none" and sign(self.f[row]) == 0 and sign(self.a[row]) >= 0:
+                    self.N[i] = "NC"
+        found = self.pick(self.violated)
+        if found is None and self.policy["slip"] == "literal":
+            found = self.pick(self.opposes_no_more)
+        if found is None:
+            raise End("solved")
+        letter, i = found
+        if letter == "N":
+            return self.drive("N", i)
+        fF = self.tangent(self.f, i)
+        if not vanishes(fF):
+            self.F[i], self.d[i] = "none", None
+            length, axis, name = axis_along(fF)
+            self.drive("F", i, axis, name, goal="zero", gap=length)
+            if self.policy["rezero"] == "rescan" or not self.violated("F", i):
+                return
+        self.establish(i)
+
+    def pick(self, fails):
+        contacts = range(len(self.N))
+        scan, first = self.policy["scan"], self.last if self.policy["resume"] == "round" else None
+        if scan == "most-violated":
+            for letter in "NF":
+                worst = None
+                for i in (i for i in contacts if fails(letter, i)):
+                    if worst is None or self.worse(letter, i, worst):
+                        worst = i
+                if worst is not None:
+                    return letter, worst
+            return None
+        step = -1 if scan == "highest" else 1
+        first = contacts[-1] * (scan == "highest") if first is None else first
+        order = [(first + step * k) % len(contacts) for k in contacts]
+        pairs = ([(letter, i) for letter in "NF" for i in order] if scan == "normals-first"
+                 else [(letter, i) for i in order for letter in "NF"])
+        return next((pair for pair in pairs if fails(*pair)), None)
+
+    def worse(self, letter, i, other):
+        if letter == "N":
+            return sign(self.a[self.space.first[other]] - self.a[self.space.first[i]]) > 0
+        x, y = self.tangent(self.a, i), self.tangent(self.a, other)
+        return sign(inner(x, x) - inner(y, y)) > 0
+
+    def violated(self, letter, i):
+        """A variable in no set, of which a condition fails: (15), or (21), (22) and aF = 0 or abs(fF) = mu fN."""
+        if letter == "N":
+            return not self.normal_holds(i)
+        return (self.space.mu[i] is not None and self.F[i] == "none" and self.normal_holds(i)
+                and not self.friction_holds(i))
+
+    def normal_holds(self, i):
+        row = self.space.first[i]
+        if self.N[i] != "none":
+            return True
+        f, a = sign(self.f[row]), sign(self.a[row])
+        return f >= 0 and a >= 0 and f * a == 0
+
+    def friction_holds(self, i):
+        fF, aF = self.tangent(self.f, i), self.tangent(self.a, i)
+        slack = 0 if self.on_circle[i] else sign(self.bound(i) - inner(fF, fF).root())
+        if slack < 0:
+            return False
+        if slack > 0:
+            return vanishes(aF) or sign(inner(aF, aF)) == 0
+        return vanishes(fF) or sign(inner(fF, aF)) <= 0
+
+    def opposes_no_more(self, letter, i):
+        """Whether (21) fails in NCF; fF is along d."""
+        if letter == "N" or self.F[i] != "NCF" or not self.normal_holds(i):
+            return False
+        return sign(self.f[self.space.first[i]]) > 0 and sign(inner(self.d[i], self.tangent(self.a, i))) > 0
+
+    def establish(self, i):
+        """fF = 0: x first, then y."""
+        x, name = [one(), ZERO], "x"
+        if self.turned[i]:
+            _, x, name = axis_along(self.tangent(self.a, i))
+            x = opposite(x)
+        kept = None
+        for axis, axis_name in ((x, name), across(x, name)):
+            rate = inner(axis, self.tangent(self.a, i))
+            way = sign(rate)
+            if way == 0:
+                self.meet_driven(i, "half" if kept is None else "CF")
+            else:
+                if way > 0:
+                    axis, rate = opposite(axis), -rate
+                self.drive("F", i, axis, axis_name, kept, gap=-rate)
+            if self.F[i] == "NCF":
+                return
+            if kept is None and not self.normal_holds(i):
+                self.F[i] = "none"
+                return
+            kept = axis, axis_name
+
+    def meet_driven(self, i, into):
+        """A friction that was driven enters a set, which takes its mark away unless it is half."""
+        self.F[i] = into
+        if into == "CF":
+            row = self.space.first[i]
+            self.a[row + 1] = self.a[row + 2] = ZERO
+        if into != "half":
+            self.turned[i] = False
+
+    # Drive.
+
+    def column(self, *entries):
+        v = [ZERO] * len(self.f)
+        for row, x in entries:
+            v[row] = x
+        return v
+
+    def normal_column(self, i):
+        """df if a normal force changes, and with it its friction in NCF."""
+        row, entries = self.space.first[i], []
+        if self.F[i] == "NCF":
+            entries = zip((row + 1, row + 2), scaled(self.space.mu[i], self.d[i]))
+        return self.column((row, one()), *entries)
+
+    def unknowns(self, but=None):
+        """Equations w.a = 0 and the forces that meet them, of C and CF; `but`: whose friction is driven."""
+        tests, forces = [], []
+        for i, row in enumerate(self.space.first):
+            if self.N[i] == "C":
+                tests.append(self.column((row, one())))
+                forces.append(self.normal_column(i))
+            if self.F[i] == "CF" and i != but:
+                for k in (1, 2):
+                    tests.append(self.column((row + k, one())))
+                    forces.append(tests[-1])
+        return tests, forces
+
+    def follow(self, tests, forces, f, a, but=None):
+        """f and a, with the forces of C and CF added that make a zero there."""
+        effects = [self.space.times(v) for v in forces]
+        x = solve([[inner(w, u) for u in effects] + [-inner(w, a)] for w in tests]) if tests else []
+        for t, v, u in zip(x, forces, effects):
+            f, a = plus(f, scaled(t, v)), plus(a, scaled(t, u))
+        for i, row in enumerate(self.space.first):
+            if self.N[i] == "C":
+                a[row] = ZERO
+            if self.F[i] == "CF" and i != but:
+                a[row + 1] = a[row + 2] = ZERO
+        return f, a
+
+    def direction(self, letter, i, axis, kept):
+        row, but = self.space.first[i], i if letter == "F" else None
+        tests, forces = self.unknowns(but)
+        if letter == "N":
+            df = self.normal_column(i)
+        else:
+            df = self.column((row + 1, axis[0]), (row + 2, axis[1]))
+            if kept:
+                tests.append(self.column((row + 1, kept[0][0]), (row + 2, kept[0][1])))
+                forces.append(tests[-1])
+        return self.follow(tests, forces, df, self.space.times(df), but)
+
+    def name_of_direction(self, letter, i, axis_name, kept):
+        """Of equal names the directions are equal, up to their sign."""
+        F = ["driven" if letter == "F" and k == i else x for k, x in enumerate(self.F)]
+        names = [self.d_name[k] if x == "NCF" else None for k, x in enumerate(F)]
+        return (*self.N, *F, *names, letter, i, axis_name, kept and kept[1])
+
+    def drive(self, letter, i, axis=None, axis_name=None, kept=None, goal="establish", gap=None):
+        """kept: the axis of half. gap: how far the goal of a friction is, in aF along the axis or in fF."""
+        self.drives, self.last = self.drives + 1, i
+        left, zero_before = {}, False
+        limiting = None
+        while limiting != "driven":
+            name = self.name_of_direction(letter, i, axis_name, kept)
+            towards = opposite(axis) if goal == "zero" else axis
+            df, da = self.direction(letter, i, towards, kept)
+            if goal == "zero":
+                fall = one()
+            elif letter == "F":
+                fall = inner(axis, self.tangent(da, i))
+            else:
+                fall, gap = da[self.space.first[i]], -self.a[self.space.first[i]]
+            t, _, limiting, k, into = self.nearest(self.limits(letter, i, goal, df, da, gap, fall, name))
+            zero = t.is_zero()
+            self.advance(t, df, da, name, limiting, k, into)
+            if not zero and letter == "F":
+                gap = gap - t * fall
+            self.meet(limiting, k, into, df, name, kept, axis_name)
+            if limiting == "driven":
+                self.move_driven(letter, i, into)
+            else:
+                self.move(limiting, k, into, letter, i, left, zero_before, zero)
+            what = letter if limiting == "driven" else limiting
+            self.on_step(f"{letter}{i + 1} {what}{k + 1} {self.N[k] if what == 'N' else self.F[k]}")
+            zero_before = zero
+
+    def limits(self, letter, i, goal, df, da, gap, fall, name):
+        """(step, rank among ties, what limits, its contact, the set it wants into)."""
+        if goal == "zero":
+            yield gap, (-1, 0), "driven", i, "none"
+        else:
+            into = "C" if letter == "N" else "CF"
+            yield from ((*limit, "driven", i, into) for limit in self.reached(gap, fall, (-1, 0)))
+            if letter == "F":
+                yield from ((*limit, "driven", i, "NCF") for limit in self.circle(i, df, (-1, 1)))
+        by_set = (lambda place, row: (place, row)) if self.policy["ties"] == "sets" else (lambda place, row: (0, row))
+        for k, row in enumerate(self.space.first):
+            if letter != "N" or k != i:
+                if self.N[k] == "C":
+                    yield from ((*x, "N", k, "NC") for x in self.reached(self.f[row], -df[row], by_set(0, row)))
+                elif self.N[k] == "NC":
+                    yield from ((*x, "N", k, "C") for x in self.reached(self.a[row], -da[row], by_set(1, row)))
+            if letter == "F" and k == i:
+                continue
+            if self.F[k] == "CF":
+                yield from ((*x, "F", k, "NCF") for x in self.circle(k, df, by_set(2, row + 1)))
+            elif self.F[k] == "NCF":
+                yield from ((*x, "F", k, "CF") for x in self.slipping(k, da, by_set(3, row + 1), name))
+
+    @staticmethod
+    def reached(gap, fall, rank):
+        if sign(fall) > 0:
+            yield gap / fall, rank
+
+    def circle(self, i, df, rank):
+        """(23): c + 2 B s + K s^2 falls to zero, or below where c = 0."""
+        fF, dF = self.tangent(self.f, i), self.tangent(df, i)
+        bound, growth = self.bound(i), self.bound(i, df)
+        force = inner(fF, fF).root()
+        B, K = bound * growth - inner(fF, dF), growth * growth - inner(dF, dF)
+        slack = bound - force
+        if self.on_circle[i] or slack.is_zero():
+            if sign(B) < 0 or sign(B) == 0 and sign(K) < 0:
+                yield ZERO, rank
+            elif sign(B) > 0 and sign(K) < 0:
+                yield -(B + B) / K, rank
+            return
+        if sign(slack) < 0:
+            raise Unsure("a force outside its circle")
+        c = slack * (bound + force)
+        D = B * B - K * c
+        if sign(K) < 0:  # two forms of one root, each good for one sign of B
+            yield (c / (D.root() - B) if B.low + B.high <= 0 else (B + D.root()) / -K), rank
+        elif sign(B) < 0 and sign(D) >= 0:
+            yield c / (D.root() - B), rank
+
+    def slipping(self, i, da, rank, name):
+        """Back into CF: at aF = 0, or under slip=redirect at d.aF = 0."""
+        aF, dA = self.tangent(self.a, i), self.tangent(da, i)
+        one_line = self.line[i] == name and not vanishes(aF)
+        redirect = self.policy["slip"] == "redirect"
+        if not one_line and (redirect or vanishes(aF)):
+            yield from self.reached(-inner(self.d[i], aF), inner(self.d[i], dA), rank)
+            return
+        if not one_line:
+            aside = aF[0] * dA[1] - aF[1] * dA[0]
+            if not aside.is_zero() and sign(aside) != 0:
+                return
+        grows = not redirect or sign(inner(self.d[i], dA)) > 0
+        if grows and sign(inner(aF, dA)) < 0:
+            yield from self.reached(-inner(aF, dA), inner(dA, dA), rank)
+
+    @staticmethod
+    def nearest(limits):
+        limits = list(limits)
+        if not limits:
+            raise End("ray")
+        at_once = [limit for limit in limits if limit[0].is_zero()]
+        if any(not x[0].is_zero() and sign(x[0]) < 0 for x in limits):
+            raise Unsure("a step backwards")
+        if at_once:
+            return min(at_once, key=lambda limit: limit[1])
+        best = limits[0]
+        for limit in limits[1:]:
+            order = sign(limit[0] - best[0])
+            if order == 0:
+                raise Unsure("two equal steps")
+            best = limit if order < 0 else best
+        return best
+
+    def advance(self, t, df, da, name, limiting, k, into):
+        """f += t df, a += t da; and what is known of where the run has been."""
+        if t.is_zero():
+            return
+        trail = self.trail
+        if trail:
+            trail = self.trail = {**trail, "name": name} if trail["name"] in (None, name) else None
+        if trail and (limiting, k, into) == ("N", trail["contact"], "C"):
+            self.f, self.a, self.line, self.trail = list(trail["f"]), list(trail["a"]), list(trail["line"]), None
+        else:
+            for i in range(len(self.N)):
+                begins = self.F[i] == "NCF" and vanishes(self.tangent(self.a, i))
+                self.line[i] = name if self.F[i] == "NCF" and (begins or self.line[i] == name) else None
+            self.f, self.a = plus(self.f, scaled(t, df)), plus(self.a, scaled(t, da))
+        for i, row in enumerate(self.space.first):
+            if not vanishes(df[row:row + 3] if self.space.mu[i] else []):
+                self.on_circle[i] = False
+
+    def meet(self, limiting, i, into, df, name, kept, axis_name):
+        """The limit is met exactly, and so is abs(fF) = mu fN in NCF."""
+        row = self.space.first[i]
+        if into == "C":
+            self.a[row] = ZERO
+        elif into == "NC":
+            self.f[row] = ZERO
+        elif into == "none":
+            self.f[row + 1] = self.f[row + 2] = ZERO
+        elif into == "NCF":
+            fF = self.tangent(self.f, i)
+            _, self.d[i], d_name = axis_along(self.tangent(df, i) if vanishes(fF) else fF)
+            self.d_name[i] = next(fresh) if type(d_name) is str else d_name
+        elif limiting == "driven":
+            if kept:
+                self.a[row + 1] = self.a[row + 2] = ZERO
+            elif axis_name in ("x", "y"):
+                self.a[row + 1 + (axis_name == "y")] = ZERO
+        elif self.policy["slip"] == "literal" or self.line[i] == name:
+            self.a[row + 1] = self.a[row + 2] = ZERO
+        for k, at in enumerate(self.space.first):
+            if self.F[k] == "NCF" or (k == i and into == "NCF"):
+                self.f[at + 1:at + 3] = scaled(self.bound(k), self.d[k])
+        if limiting == "N" and into == "NC":
+            self.trail = {"contact": i, "f": list(self.f), "a": list(self.a), "line": list(self.line), "name": None}
+
+    def move_driven(self, letter, i, into):
+        if letter == "N":
+            self.N[i] = "C"
+        elif into == "none":
+            self.F[i] = "none"
+        elif into == "CF" and self.F[i] == "none":
+            self.F[i] = "half"
+        else:
+            self.F[i], self.turned[i] = into, False
+
+    def move(self, what, k, into, letter, i, left, zero_before, zero):
+        """The limiting variable enters the set it wants into, turns away, or is given up."""
+        if what == "F" and self.F[k] == "NCF" and self.policy["slip"] == "redirect" and self.turns_away(k):
+            left[what, k], self.turned[k] = "NCF", True
+            self.rest(k)
+            return
+        give_up = {"first": zero, "previous": zero_before, "second": zero_before and zero}
+        if left.get((what, k)) == into and give_up[self.policy["give-up"]]:
+            left[what, k] = self.N[k] if what == "N" else self.F[k]
+            if what == "F":
+                return self.rest(k)
+            self.N[k] = "none"
+            if self.policy["drop"] == "contact" and k != i and self.F[k] != "none":
+                left["F", k] = self.F[k]
+                self.rest(k)
+        elif what == "N":
+            left[what, k], self.N[k] = self.N[k], into
+        else:
+            left[what, k], self.F[k] = self.F[k], into
+            if into == "CF":
+                self.on_circle[k], self.d[k] = True, None
+
+    def rest(self, i):
+        """A friction enters none. From NCF its force rests on the circle."""
+        self.on_circle[i] = self.on_circle[i] or self.F[i] == "NCF"
+        self.F[i], self.d[i] = "none", None
+
+    def turns_away(self, i):
+        """At d.aF = 0: whether aF is not zero."""
+        aF, row = self.tangent(self.a, i), self.space.first[i]
+        if not vanishes(aF) and sign(self.d[i][0] * aF[1] - self.d[i][1] * aF[0]) != 0:
+            return True
+        self.a[row + 1] = self.a[row + 2] = ZERO
+        return False
+
+    def run_until(self, drives):
+        """To the first outer state after so many drives."""
+        while self.drives < drives:
+            self.outer()
+
+
+# --- The claim cycle in space --------------------------------------------------------
+
+class Stated:
+    """The steps that a certificate states, against those that are made."""
+
+    def __init__(self, word, done=0):
+        self.word, self.done = word, done
+
+    def __call__(self, step):
+        place = f"$.witness.word[{self.done}]"
+        need(self.done < len(self.word), "$.witness.word", len(self.word), "more steps: no repetition yet")
+        need(self.word[self.done] == step, place, self.word[self.done], step)
+        self.done += 1
+
+    def must_be_done(self):
+        need(self.done == len(self.word), "$.witness.word", len(self.word), f"{self.done} steps to the repetition")
+
+
+def same_state_again(run, earlier):
+    need(run.sets() == earlier.sets(), "$.witness.period", brief(str(run.sets())), f"the sets {earlier.sets()}")
+    need(run.memory() == earlier.memory(), "$.witness.period", brief(str(run.memory())), "the same things remembered")
+
+
+def check_states(run, witness):
+    """The sets decide the state, and stand again."""
+    need(not run.memory(), "$.witness.start", witness["start"], "a state that remembers nothing but its sets")
+    earlier = run.copy()
+    run.standing([], [], run.on_step)  # whose matrix is regular
+    run.run_until(witness["start"] + witness["period"])
+    same_state_again(run, earlier)
+    run.on_step.must_be_done()
+    return "states"
+
+
+def distance(x, ends):
+    """Of a fraction from the further end of a number."""
+    return max(abs(Fraction(end, 1 << Number.bits) - x) for end in ends)
+
+
+def read_box(run, witness):
+    """charts, centre, radii; the run stands in the box."""
+    memory = run.memory()
+    need(memory, "$.witness.start", witness["start"], "a state that remembers something")
+    charts = [integer(item, at, -1, 2) for at, item in items(witness["charts"], "$.witness.charts", len(memory))]
+    for m, (chart, (row, _)) in enumerate(zip(charts, memory)):
+        need((chart == 0) == (row is not None), f"$.witness.charts[{m}]", chart, "1 or -1 of a direction, 0 of a force")
+    centre, radii = (vector(witness[key], f"$.witness.{key}", len(memory)) for key in ("centre", "radii"))
+    for m, x in enumerate(run.coordinates(charts)):
+        need(radii[m] > 0, f"$.witness.radii[{m}]", radii[m], "a number > 0")
+        found = distance(centre[m], (x.low, x.high))
+        need(found <= radii[m], f"$.witness.centre[{m}]", centre[m], "a box in which the state at start is")
+    return charts, centre, radii
+
+
+def image(run, witness, values, charts):
+    """Of coordinates: what the period makes of them; (coordinates, run, run at the start)."""
+    begins = run.standing(values, charts, Stated(witness["word"], run.on_step.done))
+    ends = begins.copy()
+    ends.run_until(witness["period"])
+    same_state_again(ends, run)
+    ends.on_step.must_be_done()
+    return list(ends.coordinates(charts)), ends, begins
+
+
+def check_box(run, witness):
+    """The period maps the box into itself: F(x) is in F(c) + F' (x - c)."""
+    charts, centre, radii = read_box(run, witness)
+    size, unit = len(centre), 1 << Number.bits
+    middle, *_ = image(run, witness, [Number.around(x) for x in centre], charts)
+    box = [Number.around(x, r) for x, r in zip(centre, radii)]
+    for m, x in enumerate(box):
+        x.slopes = [(unit, unit) if k == m else (0, 0) for k in range(size)]
+    found, ends, begins = image(run, witness, box, charts)
+    kept = 0
+    for m, (row, i) in enumerate(run.memory()):
+        slopes = found[m].slopes or [(0, 0)] * size
+        if row is None:
+            untouched = ends.d_name[i] == begins.d_name[i]
+        else:
+            untouched = (found[m].low, found[m].high, slopes) == (box[m].low, box[m].high, box[m].slopes)
+        kept += untouched
+        reach = distance(centre[m], (middle[m].low, middle[m].high)) + sum(
+            Fraction(max(map(abs, ends_of)), unit) * r for ends_of, r in zip(slopes, radii))
+        need(untouched or reach <= radii[m], f"$.witness.radii[{m}]", radii[m], reach, ", as far as the period leads")
+    return f"a box of {size} coordinates, {kept} untouched"
+
+
+def check_loop(problem, witness, policy):
+    """The facts to print of a loop in space."""
+    kind = one_of(witness["kind"], "$.witness.kind", ("states", "box"))
+    bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
+    start = integer(witness["start"], "$.witness.start", 0, 1 << 31)
+    period = integer(witness["period"], "$.witness.period", 1, 1 << 31)
+    word = items(witness["word"], "$.witness.word")
+    for at, step in word:
+        need(type(step) is str, at, step, "a step as a text")
+    need((kind == "box") == ("radii" in witness), "$.witness", kind, "charts, centre and radii of a box only")
+    coordinates = len(witness["radii"]) if kind == "box" and type(witness["radii"]) is list else 0
+    need(coordinates <= 3 * len(problem.contacts), "$.witness.radii", coordinates, "fewer coordinates")
+    cost = Cost(reduced_operations(len(problem.b), 8 * (len(word) + 1) * (1 + coordinates))).add(2 * bits)
+    cost.longest_row(problem)
+    Number.bits = bits
+    run = Run(Space(problem), policy, Stated(witness["word"]))
+    try:
+        run.run_until(start)
+        need(run.drives == start, "$.witness.start", start, f"{run.drives}: no outer state after {start} drives")
+        how = check_states(run, witness) if kind == "states" else check_box(run, witness)
+    except Unsure as unsure:
+        need(False, "$.witness.bits", bits, f"more bits: {unsure} is not told after {run.on_step.done} steps")
+    except End as end:
+        need(False, "$.witness.word", str(end), "a run that does not end")
+    return f"in space, {how}, start {start}, period {period}"
