@@ -133,7 +133,9 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
 
 std::vector<Policy> CertifiedPolicies(const Json& certificate) {
   std::vector<Policy> policies;
-  for (const Json& run : certificate["witness"]["runs"]) {
+  const Json& witness = certificate["witness"];
+  if (witness.contains("policy")) return {ParsePolicy(witness["policy"].get<std::string>())};
+  for (const Json& run : witness["runs"]) {
     for (const Json& name : run["policies"]) policies.push_back(ParsePolicy(name.get<std::string>()));
   }
   return policies;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of the published algorithm that repeat a state: `cycle`; and `counterexample`, where A is definite and
-// there is a solution besides.
+// Runs of the published algorithm that repeat a state, or in space stay in a box for ever: `cycle`; and
+// `counterexample`, where A is definite and there is a solution besides.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,10 @@
 #include "certify/claims/claim.h"
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
+#include "certify/exact/loops_in_space.h"
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
+#include "solver/published/published_space.h"
 
 namespace stiction {
 
@@ -74,7 +76,31 @@ Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names
   return state;
 }
 
+namespace {
+
+// Of the first of the policies that is proved to loop.
+Json LoopInSpaceToJson(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+  for (const Policy& policy : policies) {
+    if (!PublishedReadsInSpace(policy)) continue;
+    const auto loop = ProveLoopInSpace(problem, policy, limits);
+    if (!loop) continue;
+    Json witness = {{"policy", PolicyName(policy)}, {"kind", loop->IsBox() ? "box" : "states"},
+                    {"bits", loop->bits},           {"start", loop->start},
+                    {"period", loop->period},       {"word", loop->word}};
+    if (loop->IsBox()) {
+      witness["charts"] = loop->charts;
+      witness["centre"] = VectorToJson(loop->centre);
+      witness["radii"] = VectorToJson(loop->radii);
+    }
+    return MakeCertificate("cycle", problem, std::move(witness));
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+  if (problem.dimension == 3) return LoopInSpaceToJson(problem, policies, limits);
   const Json runs = CyclesToJson(problem, policies, limits);
   return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
 }
@@ -98,13 +124,16 @@ Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Po
 
 namespace {
 
-Policy ReadPolicy(const Json& json, const std::string& path) {
+Policy ReadPolicy(const Json& json, const std::string& path, int dimension = 2) {
   if (!json.is_string()) throw Rejected{path, Shown(json), "a policy"};
   const std::string name = json.get<std::string>();
   try {
     const Policy policy = ParsePolicy(name);
     if (PolicyName(policy) != name) throw Rejected{path, Shown(json), PolicyName(policy)};
-    if (policy.slip != Slip{}) throw Rejected{path, Shown(json), "a policy of the planar grid"};
+    if (dimension == 2 && policy.slip != Slip{})
+      throw Rejected{path, Shown(json), "a policy of the planar grid"};
+    if (dimension == 3 && !PublishedReadsInSpace(policy))
+      throw Rejected{path, Shown(json), "a policy in space"};
     return policy;
   } catch (const std::invalid_argument& error) {
     throw Rejected{path, Shown(json), Shortened(error.what(), 200)};
@@ -201,7 +230,7 @@ void RequireFewSteps(const ExactProblem& problem, const Json& runs) {
 }
 
 Json CheckRuns(const ExactProblem& problem, const Json& witness) {
-  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: this claim is checked in the plane"};
+  if (problem.dimension != 2) throw Rejected{"problem.dimension", "3", "2: runs are checked in the plane"};
   const Json& runs = witness["runs"];
   if (!runs.is_array() || runs.empty()) throw Rejected{"witness.runs", Shown(runs), "at least one run"};
   RequireFewSteps(problem, runs);
@@ -230,7 +259,65 @@ Json CheckRuns(const ExactProblem& problem, const Json& witness) {
           {"period", NumbersOf(runs, "period")}};
 }
 
+// ---- A loop in space ----
+
+constexpr int kLeastBits = 64, kMostBits = 4096;
+
+LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
+  const bool box = witness.contains("kind") && witness["kind"] == "box";
+  std::set<std::string> keys = {"policy", "kind", "bits", "start", "period", "word"};
+  if (box) keys.insert({"charts", "centre", "radii"});
+  RequireKeys(witness, "witness", keys);
+  if (!box && witness["kind"] != "states")
+    throw Rejected{"witness.kind", Shown(witness["kind"]), "states or box"};
+  LoopInSpace loop;
+  const std::int64_t bits = ReadInteger(witness["bits"], "witness.bits", kLeastBits);
+  if (bits > kMostBits)
+    throw Rejected{"witness.bits", Shown(witness["bits"]), fmt::format("at most {}", kMostBits)};
+  loop.bits = static_cast<int>(bits);
+  loop.start = ReadInteger(witness["start"], "witness.start", 0);
+  loop.period = ReadInteger(witness["period"], "witness.period", 1);
+  RequireList(witness["word"], "witness.word");
+  for (const Json& step : witness["word"]) {
+    if (!step.is_string()) throw Rejected{"witness.word", Shown(step), "a step as a text"};
+    loop.word.push_back(step.get<std::string>());
+  }
+  if (!box) return loop;
+  RequireList(witness["charts"], "witness.charts");
+  const std::size_t size = witness["charts"].size();
+  if (size == 0 || size > 3 * problem.contacts.size())
+    throw Rejected{"witness.charts", std::to_string(size), "as many as a state remembers"};
+  for (const Json& chart : witness["charts"])
+    loop.charts.push_back(
+        static_cast<int>(std::min<std::int64_t>(ReadInteger(chart, "witness.charts", -1), 2)));
+  loop.centre = ReadVector(witness["centre"], "witness.centre", static_cast<int>(size));
+  loop.radii = ReadVector(witness["radii"], "witness.radii", static_cast<int>(size));
+  return loop;
+}
+
+Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness) {
+  if (problem.dimension != 3) throw Rejected{"problem.dimension", "2", "3: in the plane its runs are stated"};
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const ContactKind kind = problem.contacts[i].kind;
+    if (kind != ContactKind::kFrictionless && kind != ContactKind::kStatic)
+      throw Rejected{fmt::format("problem.contacts[{}].kind", i), std::string(Name(kind)),
+                     "frictionless or static"};
+  }
+  const LoopInSpace loop = ReadLoop(problem, witness);
+  const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
+  const auto steps = static_cast<double>(loop.word.size() + 1) * static_cast<double>(1 + loop.charts.size());
+  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * loop.bits).LongestRow(problem);
+  if (const auto fault = FindLoopFault(problem, policy, loop))
+    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+  return {{"policies", 1},
+          {"kind", witness["kind"]},
+          {"coordinates", loop.charts.size()},
+          {"start", Json::array({loop.start})},
+          {"period", Json::array({loop.period})}};
+}
+
 Json CheckCycle(const ExactProblem& problem, const Json& witness) {
+  if (witness.is_object() && witness.contains("word")) return CheckLoopInSpace(problem, witness);
   RequireKeys(witness, "witness", {"runs"});
   return CheckRuns(problem, witness);
 }
@@ -253,10 +340,18 @@ Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
 
 }  // namespace
 
+// Planar, or in space of the contacts that its loops are proved of.
+void RequireLoops(const ExactProblem& problem, const std::string& source) {
+  if (problem.dimension == 2 || PublishedHandlesInSpace(problem)) return;
+  throw InputError(source, "contacts", "a bilateral or sliding contact",
+                   "frictionless and static ones: of these loops in space are certified");
+}
+
 ClaimRows CycleClaims() {
   static constexpr Claim kClaims[] = {
-      Claim{"cycle", CheckCycle, "the published algorithm repeats a state of its outer loop", OfCycle,
-            RequirePlanar},
+      Claim{"cycle", CheckCycle,
+            "the published algorithm repeats a state of its outer loop, or in space never ends", OfCycle,
+            RequireLoops},
       Claim{"counterexample", CheckCounterexample,
             "it does, though A is definite and there is a solution: all in one file", OfCounterexample,
             RequirePlanar}};

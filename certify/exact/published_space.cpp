@@ -7,6 +7,7 @@
 
 #include "certify/exact/enclosed_remainder.h"
 #include "certify/exact/interval.h"
+#include "certify/exact/loops_in_space.h"
 #include "solver/published/published_space.ipp"
 #include "solver/solve.ipp"
 
@@ -76,6 +77,14 @@ InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOp
   answer.period = end.period;
   answer.counters = end.counters;
   SetEnd(Enclosures(remainder.Forces(end.f)), Enclosures(remainder.Accelerations(end.f, end.a)), answer);
+  if (end.outcome == Outcome::kUndecided && !options.limits.Stopped()) {
+    if (const auto loop = ProveLoopInSpace(remainder.exact(), options.policy, options.limits)) {
+      answer.outcome = Outcome::kCycle;
+      answer.reason = {};
+      answer.start = loop->start;
+      answer.period = loop->period;
+    }
+  }
   if (end.outcome == Outcome::kRay) answer.ray = MiddleOf(Enclosures(remainder.Direction(end.ray)));
   return answer;
 }

@@ -197,6 +197,14 @@ std::string ExistenceInSpace(const ExactProblem& problem, const std::string& sou
   return existence.certificate.is_null() ? std::string() : Checked(existence.certificate, source);
 }
 
+// Empty where it has none.
+std::string LoopInSpaceOf(const ExactProblem& problem, const PublishedOptions& options,
+                          const std::string& source) {
+  if (!PublishedHandlesInSpace(problem)) return {};
+  const Json certificate = CycleCertificate(problem, {options.policy}, options.limits);
+  return certificate.is_null() ? std::string() : Checked(certificate, source);
+}
+
 // A finding of space: what intervals prove, minimized as far as they prove it still; the solution that is
 // missed.
 std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem& problem, const Limits& limits,
@@ -207,6 +215,8 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
   const InexactAnswer answer = methods.published_in_space(problem, options);
   Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   finished.existence = ExistenceInSpace(problem, finding.signature, limits);
+  const bool loops = answer.outcome == Outcome::kCycle;
+  if (loops) finished.certificate = LoopInSpaceOf(problem, options, finding.signature);
   facts["found"] = FactsInSpace(problem, answer, finished.existence);
   const bool minimize =
       !answer.Solved() && answer.outcome != Outcome::kUndecided && finding.kind != kDisagreementOfMethods;
@@ -219,6 +229,9 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;
     finished.minimized = ToJson(Describe(small, finding, options.policy, false, false)).dump();
+    if (loops) finished.minimized_certificate = LoopInSpaceOf(small, options, finding.signature);
+    if (finished.minimized_certificate.empty())
+      finished.certificate.clear();  // it would speak of another problem
     finished.minimized_existence = ExistenceInSpace(small, finding.signature, limits);
     facts["minimized"] =
         FactsInSpace(small, methods.published_in_space(small, options), finished.minimized_existence);

@@ -16,8 +16,8 @@
 // Loops       Over floating-point scalars `cycle` says that a state stands again after rounding. Forces are
 //             irrational, but there are states whose sets alone decide them (`Memoryless`): over intervals
 //             `cycle` says that the sets of such a state stand again, a proof; rounded states that stand again
-//             twice end the run `undecided`. A stall cannot happen (readings.md, 8); a drive that does not end
-//             would spend its budget.
+//             twice end the run `undecided`, and certify/exact/loops_in_space.h looks further. A stall cannot
+//             happen (readings.md, 8); a drive that does not end would spend its budget.
 // Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C
 //             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
 
@@ -86,6 +86,27 @@ class PublishedInSpace {
   // `trace`, every step is recorded.
   PublishedSpaceVerdict Run(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr);
 
+  // ---- The main loop turn by turn, from any of its states: certify/exact/loops_in_space.h proves loops so.
+
+  // What a state of the main loop remembers, in the problem's axes. All other forces follow from it.
+  struct Standing {
+    IndexSets<Eigen::Dynamic> sets;
+    std::vector<char> turned_away;  // by contact
+    int last_driven = -1;           // contact, where it matters
+    Vector f;
+    std::vector<Tangent> recorded;   // by contact, of NCF
+    std::vector<int> recorded_anew;  // by contact: how often a direction was recorded
+  };
+
+  // f = 0. `problem` must stay as it is.
+  void Begin(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr) { Start(problem, trace); }
+  // Stands in such a state; the forces of C and CF are solved for anew. Requires Begin. An enclosure throws
+  // where it is not sure that the matrix of C and CF is regular and what the sets keep holds strictly.
+  void StandAt(const Standing& standing);
+  // One turn of the main loop; whether the run goes on.
+  bool TakeTurn();
+  Standing standing() const;
+
   // Of the last run, also of one that ended in an exception: what it had done. In the problem's own axes.
   const PublishedSpaceVerdict& verdict() const { return verdict_; }
   Vector f() const { return InProblemAxes(state_.f); }
@@ -109,6 +130,7 @@ class PublishedInSpace {
     std::uint64_t rounded;
     // Over intervals:
     IndexSets<Eigen::Dynamic> sets;
+    std::vector<char> turned_away;
     int contact;                           // driven last, where it matters
     bool memoryless;                       // see Memoryless
     bool regular = false;                  // the matrix of C and CF is, as the drive from here has shown
@@ -129,6 +151,7 @@ class PublishedInSpace {
   bool OpposesNoMore(int row) const;
   void Establish(int row);
   void EstablishFriction(int row);
+  bool SetsHold() const;
   bool OuterStateRecurs();
   bool EndCycle(const OuterState& earlier);
   bool Memoryless() const;
@@ -145,6 +168,7 @@ class PublishedInSpace {
   void LimitSticking(Limit& limit, int row) const;
   void LimitSlipping(Limit& limit, int row) const;
   void Advance(const Step<Scalar>& step, bool zero);
+  void LeaveCircles();
   void MeetLimit(int row, IndexSet wants);
   bool TurnsAway(int row);
   void Move(int row, IndexSet to);
@@ -181,7 +205,8 @@ class PublishedInSpace {
   ContactState<Scalar, Eigen::Dynamic> state_;  // in the frames
   std::vector<Frame> frames_;
   std::vector<char> given_up_by_turning_;  // by contact: is to be driven anew against its acceleration
-  std::vector<char> on_circle_;            // by contact: abs(fF) = mu fN is known, though it is in CF
+  std::vector<char> on_circle_;            // by contact: abs(fF) = mu fN is known, though it is in CF, or rests
+  std::vector<int> recorded_anew_;         // by contact: how often a direction was recorded
   PublishedSpaceVerdict verdict_;
   bool ended_ = false;
   int last_driven_contact_ = -1;

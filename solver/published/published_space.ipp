@@ -21,16 +21,20 @@ namespace stiction {
 template <class Scalar>
 PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, SpaceTrace<Scalar>* trace) {
   Start(problem, trace);
-  while (!Ended() && !OuterStateRecurs()) {
-    Sweep();
-    const int violated = ScanForViolated();
-    if (violated < 0) {
-      Finish();
-    } else {
-      Establish(violated);
-    }
-  }
+  while (!Ended() && !OuterStateRecurs()) TakeTurn();
   return verdict_;
+}
+
+template <class Scalar>
+bool PublishedInSpace<Scalar>::TakeTurn() {
+  Sweep();
+  const int violated = ScanForViolated();
+  if (violated < 0) {
+    Finish();
+  } else {
+    Establish(violated);
+  }
+  return !Ended();
 }
 
 template <class Scalar>
@@ -57,6 +61,7 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   frames_.assign(problem.contacts.size(), {});
   given_up_by_turning_.assign(problem.contacts.size(), false);
   on_circle_.assign(problem.contacts.size(), false);
+  recorded_anew_.assign(problem.contacts.size(), 0);
   verdict_ = {};
   ended_ = false;
   last_driven_contact_ = -1;
@@ -105,7 +110,8 @@ template <class Scalar>
 bool PublishedInSpace<Scalar>::FrictionHolds(int row) const {
   using std::sqrt;
   const Scalar force = sqrt(Square(state_.f, row));
-  const int slack = Sign(Scalar(Bound(row) - force), scale_.force);
+  const bool known = kEncloses<Scalar> && on_circle_[layout_.ContactOf(row)];
+  const int slack = known ? 0 : Sign(Scalar(Bound(row) - force), scale_.force);
   if (slack < 0) return false;
   if (slack > 0) return Sign(Scalar(sqrt(Square(state_.a, row))), scale_.acceleration) == 0;
   if (IsSurelyZero(force)) return true;
@@ -222,7 +228,7 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
     if constexpr (kIsExact<Scalar>) {
-      OuterState& from = outer_states_.back();
+      OuterState none = {}, &from = outer_states_.empty() ? none : outer_states_.back();
       from.regular |= status == System::Status::kRegular && from.sets == state_.sets;
     }
     const Step<Scalar> step = FindStep(driven, goal);
@@ -264,10 +270,23 @@ void PublishedInSpace<Scalar>::Advance(const Step<Scalar>& step, bool zero) {
     if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
     if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
   }
-  if (!zero) on_circle_.assign(on_circle_.size(), false);
+  if (!zero) LeaveCircles();
   MeetLimit(step.limiting, step.wants);
   for (int row = 0; row < problem_->rows(); ++row) {
     if (state_.sets[row] == IndexSet::kAtUpper) state_.f[row] = Bound(row);
+  }
+}
+
+// Enclosures know it of forces that rest, too.
+template <class Scalar>
+void PublishedInSpace<Scalar>::LeaveCircles() {
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    if (kEncloses<Scalar> && layout_.HasFriction(row)) {
+      const Vector& df = direction_.df();
+      if (IsSurelyZero(df[row]) && IsSurelyZero(df[row + 1]) && IsSurelyZero(df[row + 2])) continue;
+    }
+    on_circle_[contact] = false;
   }
 }
 
@@ -283,6 +302,7 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
     case IndexSet::kAtUpper:
       AlongForce(FrictionOf(row));
       state_.f[FrictionOf(row)] = Bound(FrictionOf(row));
+      ++recorded_anew_[layout_.ContactOf(row)];
       break;
     default:
       state_.f[row] = Scalar(0);
@@ -293,6 +313,8 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
 template <class Scalar>
 void PublishedInSpace<Scalar>::Move(int row, IndexSet to) {
   last_left_[row] = state_.sets[row];
+  if (kEncloses<Scalar> && state_.sets[row] == IndexSet::kAtUpper && to == IndexSet::kNone)
+    on_circle_[layout_.ContactOf(row)] = true;
   state_.sets[row] = to;
   if (layout_.IsNormal(row)) return;
   state_.sets[row + 1] = to == IndexSet::kSticking ? to : IndexSet::kNone;
@@ -571,6 +593,71 @@ Scalar PublishedInSpace<Scalar>::Bound(int row) const {
   return problem_->contacts[layout_.ContactOf(row)].mu * state_.f[row - 1];
 }
 
+// ---- A state of the main loop -----------------------------------------------------------------
+
+template <class Scalar>
+auto PublishedInSpace<Scalar>::standing() const -> Standing {
+  Standing standing = {state_.sets, given_up_by_turning_, -1, f(), {}, recorded_anew_};
+  if (options_.policy.resume == Resume::kRound) standing.last_driven = last_driven_contact_;
+  for (const Frame& frame : frames_) standing.recorded.push_back(frame.p);
+  return standing;
+}
+
+// What rests acts like b; then a = 0 in C and CF, where a normal takes its friction along in NCF.
+template <class Scalar>
+void PublishedInSpace<Scalar>::StandAt(const Standing& standing) {
+  state_.sets = standing.sets;
+  given_up_by_turning_ = standing.turned_away;
+  last_driven_contact_ = standing.last_driven;
+  Problem resting = *problem_;
+  ListedUnknowns<Scalar, Eigen::Dynamic> unknowns;
+  unknowns.Start(resting);
+  state_.f = standing.f;
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (!IsUnknown(state_.sets[row])) continue;
+    state_.f[row] = Scalar(0);
+    unknowns.rests[row].SetUnit(row);
+    unknowns.forces[row].SetUnit(row);
+  }
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    if (!layout_.HasFriction(row) || state_.sets[row + 1] != IndexSet::kAtUpper) continue;
+    const Scalar& mu = problem_->contacts[contact].mu;
+    const Tangent& d = standing.recorded[contact];
+    state_.f[row + 1] = mu * state_.f[row] * d[0];
+    state_.f[row + 2] = mu * state_.f[row] * d[1];
+    if (IsUnknown(state_.sets[row]))
+      unknowns.forces[row].Set(row, Scalar(1), Scalar(mu * d[0]), Scalar(mu * d[1]));
+  }
+  resting.b = problem_->A * state_.f + problem_->b;
+  using System = DirectionSystem<Scalar, Eigen::Dynamic>;
+  if (direction_.SolveForces(resting, unknowns, scale_) != System::Status::kRegular) Unsure<Scalar>::Refuse();
+  state_.f += direction_.df();
+  state_.a = direction_.da();
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    if (!layout_.HasFriction(row) || state_.sets[row + 1] != IndexSet::kAtUpper) continue;
+    Turn(contact, standing.recorded[contact]);
+    state_.f[row + 1] = Bound(row + 1);
+    state_.f[row + 2] = Scalar(0);
+  }
+  if (!SetsHold()) Unsure<Scalar>::Refuse();
+}
+
+// Whether what the sets keep holds, of CF strictly.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::SetsHold() const {
+  using std::sqrt;
+  for (int row = 0; row < problem_->rows(); ++row) {
+    const IndexSet set = state_.sets[row];
+    if (set == IndexSet::kClamped && Sign(state_.f[row]) < 0) return false;
+    if (set == IndexSet::kSeparating && Sign(state_.a[row]) < 0) return false;
+    const bool sticks = set == IndexSet::kSticking && row == FrictionOf(row);
+    if (sticks && Sign(Scalar(Bound(row) - sqrt(Square(state_.f, row)))) <= 0) return false;
+  }
+  return true;
+}
+
 // ---- Repeated states and budgets -------------------------------------------------------------
 
 // Sets, forces, recorded directions, and who was given up by turning.
@@ -601,13 +688,10 @@ std::uint64_t PublishedInSpace<Scalar>::RoundedHash() const {
 }
 
 // Whether the sets decide all forces, if the matrix of C and CF is regular: then a_C = 0 and a_CF = 0 are
-// equations for the forces of these, and all others are zero. And nothing else is remembered: no direction, no
-// mark.
+// equations for the forces of these, and all others are zero. And no direction is remembered; marks are
+// compared with the sets.
 template <class Scalar>
 bool PublishedInSpace<Scalar>::Memoryless() const {
-  for (const char turning : given_up_by_turning_) {
-    if (turning) return false;
-  }
   for (int row = 0; row < problem_->rows(); ++row) {
     const IndexSet set = state_.sets[row];
     const bool solved_for = set == IndexSet::kClamped || set == IndexSet::kSticking;
@@ -627,9 +711,10 @@ bool PublishedInSpace<Scalar>::EndCycle(const OuterState& earlier) {
 
 template <class Scalar>
 bool PublishedInSpace<Scalar>::OuterStateRecurs() {
-  OuterState now = {verdict_.statistics.drives, RoundedHash(), {}, -1, false};
+  OuterState now = {verdict_.statistics.drives, RoundedHash(), {}, {}, -1, false};
   if constexpr (kIsExact<Scalar>) {
     now.sets = state_.sets;
+    now.turned_away = given_up_by_turning_;
     if (options_.policy.resume == Resume::kRound) now.contact = last_driven_contact_;
     now.memoryless = Memoryless();
     now.singular_directions = verdict_.statistics.singular_directions;
@@ -640,7 +725,7 @@ bool PublishedInSpace<Scalar>::OuterStateRecurs() {
       // A solution of a singular system is taken by the order of its rows, in axes that are remembered.
       const bool regular = earlier.regular && earlier.singular_directions == now.singular_directions;
       if (now.memoryless && earlier.memoryless && regular && earlier.sets == now.sets &&
-          earlier.contact == now.contact)
+          earlier.turned_away == now.turned_away && earlier.contact == now.contact)
         return EndCycle(earlier);
     }
     if (earlier.rounded != now.rounded) continue;

@@ -219,7 +219,7 @@ class Space(cli.TestCase):
         self.refuses("solve", problem, "--method", "ipopt", says=["ipopt", "in space", "not built", "complete"])
         self.refuses("solve", problem, "--method", "enumerate", "--arithmetic", "double", says=["enumerate", "in space"])
         self.refuses("solve", problem, "--method", "complete", "--law", "amontons", says="--law")
-        self.refuses("certify", problem, "-o", out, "--claim", "cycle", says=["dimension", "3"])
+        self.refuses("certify", problem, "-o", out, "--claim", "counterexample", says=["dimension", "3"])
         self.refuses("certify", problem, "--all", says=["dimension", "3"])
         self.refuses("certify", cli.ROOT / "corpus/two-contact-cycle.json", "-o", out, "--claim", "coulomb-solution",
                      says=["dimension", "in the plane the claim is solution-exists"])

@@ -79,6 +79,11 @@ def space(program):
     return "\n\n".join(program.study("space", "--problems", program.size(20_000)))
 
 
+def space_loops(program):
+    """With seeds that nothing was tuned on."""
+    return "\n\n".join(program.study("space-loops", "--seeds", 11, 12, 13, "--problems", program.size(10_000)))
+
+
 def sliding(program):
     return "\n\n".join(program.study("sliding", "--generator", "integers", "--problems", program.size(300_000)))
 

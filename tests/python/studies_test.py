@@ -7,6 +7,7 @@ import itertools
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -111,6 +112,18 @@ class Studies(unittest.TestCase):
                 self.assertEqual(row["differ"], "0")
                 if row["`slip`"] == "polygon":
                     self.assertEqual(row["solved"], str(count))
+
+    def test_space_loops(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rows, = tables("space_loops", "--contacts", 2, "--problems", 1500, "--seeds", 1, "--certificates", folder)
+            self.assertEqual([row["`slip`"] for row in rows], ["literal", "redirect"])
+            for row in rows:
+                ends = [whole(row[end]) for end in ("by states", "by boxes", "open", "refused")]
+                self.assertEqual(sum(ends), whole(row["suspected"]), row)
+                self.assertEqual(row["refused"], "0")
+            proved = sum(whole(row["by states"]) + whole(row["by boxes"]) for row in rows)
+            self.assertGreater(proved, 0)
+            self.assertEqual(len(list(Path(folder).iterdir())), proved)
 
     def test_adversary(self):
         rows, = tables("adversary", "--objective", "steps", "friction", "--problems", 400)

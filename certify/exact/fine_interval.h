@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// FineInterval: a number between two ends, integers over 2^bits, rounded outwards; and between which ends its
+// derivatives are by the coordinates of a box. An enclosure (solver/problem/enclosure.h); a comparison that it
+// leaves open throws, as those of intervals do.
+//
+// With derivatives F' over a box around c, F(x) is in F(c) + F' (x - c) for every x in it (mean value theorem):
+// so a box of many rounds of an algorithm is not overestimated in proportion to its size.
+//
+// Bits   those of the thread, from the making of a FineBits to its end: no number outlives it.
+
+#ifndef STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_
+#define STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "certify/exact/interval.h"
+
+namespace stiction {
+
+class FineBits {
+ public:
+  explicit FineBits(int bits) : before_(now_) { now_ = bits; }
+  ~FineBits() { now_ = before_; }
+  FineBits(const FineBits&) = delete;
+  FineBits& operator=(const FineBits&) = delete;
+  static int Now() { return now_; }
+
+ private:
+  inline static thread_local int now_ = 256;
+  int before_;
+};
+
+// Integers over 2^bits.
+struct FineEnds {
+  mpz_class low, high;
+
+  bool AreZero() const { return low == 0 && high == 0; }
+  mpz_class Largest() const { return low + high >= 0 ? high : mpz_class(-low); }  // absolute value
+  FineEnds operator-() const { return {-high, -low}; }
+  friend FineEnds operator+(const FineEnds& x, const FineEnds& y) { return {x.low + y.low, x.high + y.high}; }
+  friend FineEnds operator*(const FineEnds& x, const FineEnds& y);
+};
+
+class FineInterval {
+ public:
+  using Slopes = std::vector<FineEnds>;  // by coordinate; those that are not listed are zero
+
+  FineInterval() = default;
+  FineInterval(int x)  // NOLINT(google-explicit-constructor): a scalar
+      : ends_{mpz_class(x) << FineBits::Now(), mpz_class(x) << FineBits::Now()} {}
+  explicit FineInterval(FineEnds ends, Slopes slopes = {})
+      : ends_(std::move(ends)), slopes_(std::move(slopes)) {}
+
+  // No further from x than the radius.
+  static FineInterval Around(const Rational& x, const Rational& radius = 0) {
+    return FineInterval({Floor(x - radius), -Floor(-x - radius)});
+  }
+  // Coordinate k of a box.
+  static FineInterval Coordinate(int k, const Rational& x, const Rational& radius) {
+    FineInterval coordinate = Around(x, radius);
+    coordinate.slopes_.assign(k + 1, {0, 0});
+    coordinate.slopes_[k] = FineInterval(1).ends_;
+    return coordinate;
+  }
+
+  const FineEnds& ends() const { return ends_; }
+  const Slopes& slopes() const { return slopes_; }
+  Rational Low() const { return Over(ends_.low); }
+  Rational High() const { return Over(ends_.high); }
+  Rational Middle() const { return (Low() + High()) / 2; }
+  static Rational Over(const mpz_class& x) {
+    Rational result(x, mpz_class(1) << FineBits::Now());
+    result.canonicalize();
+    return result;
+  }
+  // Zero everywhere in the box.
+  bool IsZero() const {
+    return ends_.AreZero() &&
+           std::all_of(slopes_.begin(), slopes_.end(), [](const auto& s) { return s.AreZero(); });
+  }
+
+  FineInterval operator-() const {
+    FineInterval result(-ends_, slopes_);
+    for (FineEnds& slope : result.slopes_) slope = -slope;
+    return result;
+  }
+  friend FineInterval operator+(const FineInterval& x, const FineInterval& y) {
+    FineInterval sum(x.ends_ + y.ends_, x.slopes_);
+    sum.AddSlopes(y.slopes_);
+    return sum;
+  }
+  friend FineInterval operator-(const FineInterval& x, const FineInterval& y) { return x + -y; }
+  friend FineInterval operator*(const FineInterval& x, const FineInterval& y) {
+    if (x.IsZero() || y.IsZero()) return {};
+    FineInterval product(x.ends_ * y.ends_, Times(x.slopes_, y.ends_));
+    product.AddSlopes(Times(y.slopes_, x.ends_));
+    return product;
+  }
+  friend FineInterval operator/(const FineInterval& x, const FineInterval& y) {
+    return x.IsZero() ? FineInterval() : x * y.Inverse();
+  }
+  FineInterval& operator+=(const FineInterval& y) { return *this = *this + y; }
+  FineInterval& operator-=(const FineInterval& y) { return *this = *this - y; }
+  FineInterval& operator*=(const FineInterval& y) { return *this = *this * y; }
+  FineInterval& operator/=(const FineInterval& y) { return *this = *this / y; }
+
+  friend FineInterval sqrt(const FineInterval& x) {
+    if (x.IsZero()) return {};
+    if (x.ends_.low <= 0) Unsure<Interval>::Refuse();
+    const mpz_class low = x.ends_.low << FineBits::Now(), high = x.ends_.high << FineBits::Now();
+    FineEnds root = {::sqrt(low), ::sqrt(high)};
+    if (root.high * root.high < high) ++root.high;
+    if (x.slopes_.empty()) return FineInterval(std::move(root));
+    const FineEnds over = FineInterval(root + root).Inverse().ends_;
+    return FineInterval(std::move(root), Times(x.slopes_, over));
+  }
+
+  friend bool operator<(const FineInterval& x, const FineInterval& y) {
+    if (x.ends_.high < y.ends_.low) return true;
+    if (x.ends_.low < y.ends_.high) Unsure<Interval>::Refuse();
+    return false;
+  }
+  friend bool operator==(const FineInterval& x, const FineInterval& y) {
+    const bool points = x.ends_.low == x.ends_.high && y.ends_.low == y.ends_.high;
+    if (points && x.ends_.low == y.ends_.low) return true;
+    if (!(x.ends_.high < y.ends_.low || y.ends_.high < x.ends_.low)) Unsure<Interval>::Refuse();
+    return false;
+  }
+  friend bool operator>(const FineInterval& x, const FineInterval& y) { return y < x; }
+  friend bool operator<=(const FineInterval& x, const FineInterval& y) { return !(y < x); }
+  friend bool operator>=(const FineInterval& x, const FineInterval& y) { return !(x < y); }
+  friend bool operator!=(const FineInterval& x, const FineInterval& y) { return !(x == y); }
+
+ private:
+  static mpz_class Floor(const Rational& x) {
+    const mpz_class numerator = x.get_num() << FineBits::Now();
+    mpz_class floor;
+    mpz_fdiv_q(floor.get_mpz_t(), numerator.get_mpz_t(), x.get_den_mpz_t());
+    return floor;
+  }
+  static Slopes Times(Slopes slopes, const FineEnds& factor) {
+    for (FineEnds& slope : slopes) slope = slope * factor;
+    return slopes;
+  }
+  void AddSlopes(const Slopes& slopes) {
+    if (slopes_.size() < slopes.size()) slopes_.resize(slopes.size());
+    for (std::size_t k = 0; k < slopes.size(); ++k) slopes_[k] = slopes_[k] + slopes[k];
+  }
+  FineInterval Inverse() const {
+    if (ends_.low <= 0 && ends_.high >= 0) Unsure<Interval>::Refuse();
+    const mpz_class one = mpz_class(1) << 2 * FineBits::Now();
+    FineEnds inverse;
+    mpz_fdiv_q(inverse.low.get_mpz_t(), one.get_mpz_t(), ends_.high.get_mpz_t());
+    mpz_cdiv_q(inverse.high.get_mpz_t(), one.get_mpz_t(), ends_.low.get_mpz_t());
+    if (slopes_.empty()) return FineInterval(std::move(inverse));
+    const FineEnds square = -(inverse * inverse);
+    return FineInterval(std::move(inverse), Times(slopes_, square));
+  }
+
+  FineEnds ends_;
+  Slopes slopes_;
+};
+
+inline FineEnds operator*(const FineEnds& x, const FineEnds& y) {
+  FineEnds product;
+  if (x.low >= 0) {
+    product = {(y.low >= 0 ? x.low : x.high) * y.low, (y.high >= 0 ? x.high : x.low) * y.high};
+  } else if (x.high <= 0) {
+    product = {(y.high >= 0 ? x.low : x.high) * y.high, (y.low >= 0 ? x.high : x.low) * y.low};
+  } else {
+    product = {std::min<mpz_class>(x.low * y.high, x.high * y.low),
+               std::max<mpz_class>(x.low * y.low, x.high * y.high)};
+  }
+  mpz_fdiv_q_2exp(product.low.get_mpz_t(), product.low.get_mpz_t(), FineBits::Now());
+  mpz_cdiv_q_2exp(product.high.get_mpz_t(), product.high.get_mpz_t(), FineBits::Now());
+  return product;
+}
+
+template <>
+inline bool IsSurelyZero(const FineInterval& x) {
+  return x.IsZero();
+}
+
+template <>
+inline int Sign(const FineInterval& x) {
+  if (x.ends().low > 0) return 1;
+  if (x.ends().high < 0) return -1;
+  if (!x.ends().AreZero()) Unsure<Interval>::Refuse();
+  return 0;
+}
+
+template <>
+inline constexpr bool kEncloses<FineInterval> = true;
+
+template <>
+struct Approximation<FineInterval> {
+  static double Of(const FineInterval& x) {
+    signed long exponent = 0;
+    const mpz_class twice = x.ends().low + x.ends().high;
+    const double mantissa = mpz_get_d_2exp(&exponent, twice.get_mpz_t());
+    return std::ldexp(mantissa, static_cast<int>(exponent) - FineBits::Now() - 1);
+  }
+};
+
+template <>
+struct Unsure<FineInterval> {
+  static bool TellsSign(const FineInterval& x) {
+    return x.ends().low > 0 || x.ends().high < 0 || IsSurelyZero(x);
+  }
+  static bool MayBePositive(const FineInterval& x) { return x.ends().high > 0; }
+  static FineInterval Earliest(const FineInterval&, const FineInterval&) { return {}; }
+  [[noreturn]] static void Refuse() { Unsure<Interval>::Refuse(); }
+};
+
+}  // namespace stiction
+
+namespace Eigen {
+
+template <>
+struct NumTraits<stiction::FineInterval> : GenericNumTraits<stiction::FineInterval> {
+  using Real = stiction::FineInterval;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 100,
+    AddCost = 1000,
+    MulCost = 2000
+  };
+};
+
+}  // namespace Eigen
+
+#endif  // STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proofs that a run of the published algorithm in space never ends.
+//
+// States   The sets of a state that remembers nothing else stand again (solver/published/readings.md, 8).
+// Boxes    What a state remembers beyond its sets are resting forces and recorded directions, a few coordinates
+// x:
+//          a force, or the tangent of half the angle of a direction. From all of a box around c the run takes
+//          the same steps, every sign strict, to the same sets; so the period is a smooth map F of the
+//          coordinates, and
+//
+//            abs(F(c) - c)_i + sum_j sup abs(dF_i / dx_j) r_j <= r_i
+//
+//          keeps it in the box for ever. A coordinate that the period leaves untouched is a parameter.
+//
+// certify/certificates.md, Loops in space, says what stands in a certificate, and has the proof.
+//
+// Numbers  FineInterval: as many bits as it takes, with derivatives.
+
+#ifndef STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_
+#define STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/exact_problem.h"
+#include "solver/problem/options.h"
+
+namespace stiction {
+
+struct LoopInSpace {
+  int bits = 0;
+  std::int64_t start = 0, period = 0;  // in drives; the first state of the main loop after so many
+  std::vector<std::string> word;       // every step from f = 0 to the end of one period
+  // Of a box, a number for each coordinate; empty for states.
+  std::vector<int> charts;  // 0: a force; 1, -1: a direction, or its opposite, by the tangent of half its angle
+  ExactVector centre, radii;
+
+  bool IsBox() const { return radii.size() > 0; }
+};
+
+// What is wrong with a proof.
+struct LoopFault {
+  std::string place, found, expected;
+};
+
+// What both require: dimension 3, frictionless and static contacts, PublishedReadsInSpace(policy).
+
+// Empty if the run ends, or if no proof was found. What is returned has no fault.
+std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
+                                            const Limits& limits);
+std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
+                                       const LoopInSpace& loop);
+
+}  // namespace stiction
+
+#endif  // STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_
