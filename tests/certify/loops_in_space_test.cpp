@@ -11,15 +11,13 @@
 namespace stiction {
 namespace {
 
-// The loop of corpus/space/cycle-under-both-slips.json.
-ExactProblem UnderBothSlips() {
+using Rows = int[6][6];
+
+ExactProblem TwoContacts(const Rows& A, const int (&b)[6]) {
   ExactProblem problem;
   problem.dimension = 3;
   problem.contacts.assign(2, {ContactKind::kStatic, 3, {}});
   problem.A = ExactMatrix::Constant(6, 6, Rational(0));
-  const int A[6][6] = {{3, 0, 0, 0, 0, 1},  {0, 3, 1, 0, 1, -1}, {0, 1, 3, -1, 1, 0},
-                       {0, 0, -1, 2, 0, 0}, {0, 1, 1, 0, 3, 0},  {1, -1, 0, 0, 0, 3}};
-  const int b[6] = {-1, 2, 0, -1, -2, 1};
   problem.b = ExactVector::Constant(6, Rational(0));
   for (int i = 0; i < 6; ++i) {
     problem.b[i] = b[i];
@@ -28,74 +26,107 @@ ExactProblem UnderBothSlips() {
   return problem;
 }
 
+// Its sets stand again under both slips: corpus/space/cycle-under-both-slips.json.
+ExactProblem OfStates() {
+  return TwoContacts({{3, 0, 0, 0, 0, 1},
+                      {0, 3, 1, 0, 1, -1},
+                      {0, 1, 3, -1, 1, 0},
+                      {0, 0, -1, 2, 0, 0},
+                      {0, 1, 1, 0, 3, 0},
+                      {1, -1, 0, 0, 0, 3}},
+                     {-1, 2, 0, -1, -2, 1});
+}
+
+// Under both slips it never leaves a box.
+ExactProblem OfBoxes() {
+  return TwoContacts({{7, -1, -4, 1, -3, -2},
+                      {-1, 13, 5, 2, 1, 1},
+                      {-4, 5, 12, -3, 3, 3},
+                      {1, 2, -3, 2, -1, 0},
+                      {-3, 1, 3, -1, 8, -1},
+                      {-2, 1, 3, 0, -1, 8}},
+                     {-1, 2, -2, 1, 2, -3});
+}
+
 Policy WithSlip(Slip slip) {
   Policy policy;
   policy.slip = slip;
   return policy;
 }
 
-std::string FaultyPlace(const Policy& policy, const LoopInSpace& loop) {
-  const auto fault = FindLoopFault(UnderBothSlips(), policy, loop);
+std::string FaultyPlace(const ExactProblem& problem, const Policy& policy, const LoopInSpace& loop) {
+  const auto fault = FindLoopFault(problem, policy, loop);
   return fault ? fault->place : "";
 }
 
-LoopInSpace Proof(const Policy& policy) {
-  const auto loop = ProveLoopInSpace(UnderBothSlips(), policy, {});
+LoopInSpace Proof(const ExactProblem& problem, const Policy& policy) {
+  const auto loop = ProveLoopInSpace(problem, policy, {});
   REQUIRE(loop.has_value());
   return *loop;
 }
 
-TEST_CASE("loops in space: of one problem both slips loop, one by its sets, one in a box") {
-  const Policy literal = WithSlip(Slip::kLiteral), redirect = WithSlip(Slip::kRedirect);
-  const LoopInSpace states = Proof(literal), box = Proof(redirect);
-  CHECK_FALSE(states.IsBox());
-  CHECK(box.IsBox());
-  CHECK(FaultyPlace(literal, states).empty());
-  CHECK(FaultyPlace(redirect, box).empty());
-  for (const auto& [policy, loop] : {std::pair(literal, states), std::pair(redirect, box)}) {
-    const InexactAnswer run = RunIntervalsInSpace(UnderBothSlips(), {policy, {}, {}});
-    CHECK(run.outcome == Outcome::kCycle);
-    CHECK(run.period == loop.period);
+TEST_CASE("loops in space: proved by sets and by boxes, under both slips") {
+  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
+    const Policy policy = WithSlip(slip);
+    for (const auto& [problem, is_box] : {std::pair(OfStates(), false), std::pair(OfBoxes(), true)}) {
+      const LoopInSpace loop = Proof(problem, policy);
+      CHECK(loop.IsBox() == is_box);
+      CHECK(FaultyPlace(problem, policy, loop).empty());
+      const InexactAnswer run = RunIntervalsInSpace(problem, {policy, {}, {}});
+      CHECK(run.outcome == Outcome::kCycle);
+      CHECK(run.period == loop.period);
+    }
   }
 }
 
-TEST_CASE("loops in space: what is altered has a fault in its place") {
+TEST_CASE("loops in space: a proof that is altered has a fault") {
   const Policy literal = WithSlip(Slip::kLiteral), redirect = WithSlip(Slip::kRedirect);
   for (const Policy& policy : {literal, redirect}) {
-    const LoopInSpace proof = Proof(policy);
-    LoopInSpace other = proof;
-    other.word.pop_back();
-    CHECK(FaultyPlace(policy, other) == "word");
-    other = proof;
-    std::swap(other.word[0], other.word[1]);
-    CHECK(FaultyPlace(policy, other) == "word[0]");
-    other = proof;
-    other.bits = 64;
-    other.start += 2 * other.period;
-    CHECK_FALSE(FaultyPlace(policy, other).empty());
-    CHECK_FALSE(FaultyPlace(policy == literal ? redirect : literal, proof).empty());
+    for (const ExactProblem& problem : {OfStates(), OfBoxes()}) {
+      const LoopInSpace proof = Proof(problem, policy);
+      LoopInSpace other = proof;
+      other.word.pop_back();
+      CHECK(FaultyPlace(problem, policy, other) == "word");
+      other = proof;
+      std::swap(other.word[0], other.word[1]);
+      CHECK(FaultyPlace(problem, policy, other) == "word[0]");
+      other = proof;
+      ++other.start;
+      CHECK_FALSE(FaultyPlace(problem, policy, other).empty());
+      other = proof;
+      ++other.period;
+      CHECK_FALSE(FaultyPlace(problem, policy, other).empty());
+    }
   }
-  const LoopInSpace box = Proof(redirect);
+  CHECK_FALSE(FaultyPlace(OfBoxes(), literal, Proof(OfBoxes(), redirect)).empty());
+}
+
+TEST_CASE("loops in space: a box that is altered has a fault in its place") {
+  const Policy policy = WithSlip(Slip::kRedirect);
+  const LoopInSpace box = Proof(OfBoxes(), policy);
+  const auto place = [&](const LoopInSpace& other) { return FaultyPlace(OfBoxes(), policy, other); };
   LoopInSpace other = box;
   other.centre[0] += 3 * box.radii[0];
-  CHECK(FaultyPlace(redirect, other) == "centre");
+  CHECK(place(other) == "centre");
   other = box;
   other.radii[0] = 0;
-  CHECK(FaultyPlace(redirect, other) == "radii[0]");
+  CHECK(place(other) == "radii[0]");
   other.radii[0] = box.radii[0] / (mpz_class(1) << 200);
-  CHECK_FALSE(FaultyPlace(redirect, other).empty());
+  CHECK(place(other) == "centre");  // the run does not come into it
   other.radii[0] = 1000;
-  CHECK_FALSE(FaultyPlace(redirect, other).empty());
+  CHECK(place(other) == "bits");  // it has many words
   other = box;
-  other.charts[0] = other.charts[0] == 0 ? 1 : 0;
-  CHECK(FaultyPlace(redirect, other) == "charts[0]");
+  other.charts[0] = 0;
+  CHECK(place(other) == "charts[0]");
+  other.charts[0] = -box.charts[0];
+  CHECK_FALSE(place(other).empty());
   other = box;
   other.charts.pop_back();
-  CHECK(FaultyPlace(redirect, other) == "radii");
+  CHECK(place(other) == "radii");
 }
 
 TEST_CASE("loops in space: a run that ends is not proved to loop") {
-  ExactProblem problem = UnderBothSlips();
+  ExactProblem problem = OfStates();
   for (auto& contact : problem.contacts) contact.mu = Rational(1, 100);
   for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
     CHECK(RunIntervalsInSpace(problem, {WithSlip(slip), {}, {}}).outcome == Outcome::kSolved);

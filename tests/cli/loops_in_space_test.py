@@ -9,15 +9,20 @@ from fractions import Fraction
 
 import cli
 
-
-def two_slips():
-    return cli.ROOT / "corpus/space/cycle-under-both-slips.json"
+# Under both slips it never leaves a box.
+IN_A_BOX = {
+    "format": "stiction-problem", "version": 1, "name": "in-a-box", "dimension": 3,
+    "contacts": [{"kind": "static", "mu": "3"}, {"kind": "static", "mu": "3"}],
+    "A": [["7", "-1", "-4", "1", "-3", "-2"], ["-1", "13", "5", "2", "1", "1"], ["-4", "5", "12", "-3", "3", "3"],
+          ["1", "2", "-3", "2", "-1", "0"], ["-3", "1", "3", "-1", "8", "-1"], ["-2", "1", "3", "0", "-1", "8"]],
+    "b": ["-1", "2", "-2", "1", "2", "-3"],
+}
 
 
 class LoopsInSpace(cli.TestCase):
-    def certificate(self, policy):
+    def certificate(self, problem, policy):
         file = self.folder / "loop.json"
-        self.succeeds("certify", two_slips(), "--claim", "cycle", "--policy", policy, "-o", file)
+        self.succeeds("certify", problem, "--claim", "cycle", "--policy", policy, "-o", file)
         return json.loads(file.read_text())
 
     def verdicts(self, certificates):
@@ -34,15 +39,22 @@ class LoopsInSpace(cli.TestCase):
             self.assertEqual([": accepted: " in line for line in lines], said, done.stdout)
         return said
 
-    def kinds(self):
-        proofs = {proof["witness"]["kind"]: proof for proof in map(self.certificate, ("paper", "slip=redirect"))}
-        self.assertEqual(set(proofs), {"states", "box"})
+    def proofs(self, policy):
+        """By kind."""
+        boxed = self.folder / "box.json"
+        boxed.write_text(json.dumps(IN_A_BOX))
+        proofs = [self.certificate(problem, policy)
+                  for problem in (cli.ROOT / "corpus/space/cycle-under-both-slips.json", boxed)]
+        self.assertEqual([proof["witness"]["kind"] for proof in proofs], ["states", "box"])
         return proofs
 
     def test_both_kinds_are_accepted(self):
-        proofs = self.kinds()
-        self.assertEqual(self.verdicts(proofs.values()), [True, True])
-        self.assertEqual(len(proofs["box"]["witness"]["radii"]), len(proofs["box"]["witness"]["charts"]))
+        for policy in ("paper", "slip=redirect", "give-up=second,slip=redirect"):
+            with self.subTest(policy=policy):
+                states, box = self.proofs(policy)
+                self.assertEqual(self.verdicts([states, box]), [True, True])
+                self.assertEqual(states["witness"]["policy"], policy)
+                self.assertEqual(len(box["witness"]["radii"]), len(box["witness"]["charts"]))
 
     def altered(self, proof):
         """(what, certificate), all of them false."""
@@ -69,7 +81,6 @@ class LoopsInSpace(cli.TestCase):
         yield put("start", witness["start"] - 1 if witness["start"] else 7)
         yield put("period", witness["period"] + 1)
         yield put("period", 2 * witness["period"])
-        yield put("bits", 64)
         yield put("bits", 5000)
         yield put("policy", "slip=redirect" if witness["policy"] == "paper" else "paper")
         yield put("policy", "slip=polygon")
@@ -101,15 +112,19 @@ class LoopsInSpace(cli.TestCase):
                 yield put("charts", k, -witness["charts"][k])
 
     def test_altered_ones_are_refused(self):
-        proofs = self.kinds()
-        cases = [*self.altered(proofs["states"]), *self.altered(proofs["box"]), *self.altered_box(proofs["box"])]
+        states, box = self.proofs("slip=redirect")
+        cases = [*self.altered(states), *self.altered(box), *self.altered_box(box)]
         self.assertGreater(len(cases), 40)
         for (what, _), accepted in zip(cases, self.verdicts([case for _, case in cases])):
             self.assertFalse(accepted, what)
 
     def test_other_contacts_are_refused_by_name(self):
-        file = cli.ROOT / "corpus/space/three-sliding-contacts.json"
-        self.refuses("certify", file, "--claim", "cycle", says=["a bilateral or sliding contact", "frictionless and static"])
+        file = self.folder / "bilateral.json"
+        unit = [[str(int(i == j)) for j in range(4)] for i in range(4)]
+        file.write_text(json.dumps({**IN_A_BOX, "contacts": [{"kind": "bilateral"}, {"kind": "static", "mu": "3"}],
+                                    "A": unit, "b": ["-1", "-1", "0", "1"]}))
+        self.refuses("certify", file, "--claim", "cycle", "-o", self.folder / "c.json",
+                     says=["a bilateral or sliding contact", "frictionless and static"])
 
 
 if __name__ == "__main__":
