@@ -25,6 +25,7 @@
 #include "search/campaign.h"
 #include "search/summary.h"
 #include "search/testimony.h"
+#include "search/under_test/solver_report.h"
 #include "search/units/known_signatures.h"
 
 namespace stiction {
@@ -51,6 +52,8 @@ int PrintReport(const ReportVerb& o, const Store& store) {
   const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
   if (o.json)
     std::cout << JsonText(SummaryToJson(store)) << "\n";
+  else if (TestsSolver(store, o.store))
+    std::cout << SolverText(store, o.store);
   else
     std::cout << (optimized ? OptimizedText(store, o.store) : TextReport(store, o.store, KnownAs));
   return kExitDone;
@@ -63,6 +66,9 @@ Store OpenDrawn(const std::string& file) {
   if (!CampaignOf(store.identity(), file).objective.empty())
     throw InputError(
         fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
+  if (TestsSolver(store, file))
+    throw InputError(
+        fmt::format("{}: found a search that tests a solver, expected one of the published algorithm", file));
   return store;
 }
 
@@ -91,6 +97,9 @@ std::map<std::string, std::string> CampaignLabels() {
 int ReportStore(const ReportVerb& o) {
   ProgressBar progress;
   const Store store = OpenSound(o.store, Reading(progress));
+  if (TestsSolver(store, o.store) && !(o.folder.empty() && o.package.empty()))
+    throw InputError(fmt::format(
+        "{}: found a search that tests a solver, expected --text or --json: it has no pages", o.store));
   std::string text;
   Json written = Json::array();
   if (!o.folder.empty()) {

@@ -15,6 +15,7 @@
 #include "certify/request/solve_in.h"
 #include "corpus/json_text.h"
 #include "search/summary.h"
+#include "search/under_test/solver_report.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -255,6 +256,7 @@ const std::vector<NamedShape>& NamedShapes() {
       {"times", ShapeOfTimes(), "processor time, s"},
       {"summary", ShapeOfSummary(), "what a store holds"},
       {"optimized", ShapeOfOptimized(), "what the store of a search with an objective holds"},
+      {"tested", ShapeOfSolver(), "what the store of a search that tests a solver holds"},
   };
   return shapes;
 }

@@ -30,6 +30,8 @@
 #include "search/generators/exponential.h"
 #include "search/summary.h"
 #include "search/testimony.h"
+#include "search/under_test/solver_process.h"
+#include "search/under_test/solver_report.h"
 #include "search/units/known_signatures.h"
 #include "search/units/regenerate.h"
 #include "search/units/unit.h"
@@ -72,6 +74,7 @@ struct SearchVerb {
   int threads = 0;
   std::optional<double> finishing;  // percent
   bool finish = false;
+  std::string solver;  // file
   std::string on_finding;
   bool json = false;
 };
@@ -138,6 +141,7 @@ Campaign CampaignOf(const SearchVerb& verb) {
     throw InputError(
         fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
   for (const std::string& file : o.parents) campaign.parents.push_back(CandidateOf(ReadProblem(file), file));
+  if (!verb.solver.empty()) campaign.solver = SolverProcess(SolverCommand(verb.solver)).about();
   RequireConsistent(campaign);
   return campaign;
 }
@@ -146,6 +150,7 @@ Campaign CampaignOf(const SearchVerb& verb) {
 
 // For the end of a search, and for `status`.
 std::string SummaryOf(const Store& store, const std::string& file) {
+  if (TestsSolver(store, file)) return SolverText(store, file);
   const bool optimized = !CampaignOf(store.identity(), file).objective.empty();
   return optimized ? OptimizedText(store, file) : SummaryText(store, file);
 }
@@ -167,8 +172,8 @@ Campaign CampaignToFinish(const SearchVerb& o) {
   const Campaign campaign = CampaignOf(Store::OpenToRead(o.store).identity(), o.store);
   if (!o.campaign.empty() || o.words != CampaignWords{} || o.problems || o.finishing)
     throw InputError(
-        "--finish: found options of a campaign or of its size, expected --store, --shard, --minutes, "
-        "--threads, --on-finding and --json alone: the campaign is that of the store");
+        "--finish: found options of a campaign or of its size, expected --store, --shard, --solver, "
+        "--minutes, --threads, --on-finding and --json alone: the campaign is that of the store");
   return campaign;
 }
 
@@ -184,6 +189,7 @@ SearchOptions OptionsOf(const SearchVerb& o) {
   options.problems = o.problems;
   if (o.finishing) options.finishing = *o.finishing / 100;
   options.only_finish = o.finish;
+  if (!o.solver.empty()) options.solver = SolverCommand(o.solver);
   if (!o.minutes && !o.problems && !o.finish) options.minutes = kDefaultMinutes;
   options.interrupted = &Interruption();
   return options;
@@ -262,6 +268,7 @@ Look LookAt(const Store& store) {
   Look look;
   const Record total = store.Total();
   look.problems = CountAll(total).runs;
+  for (const auto& [key, tally] : total.under_test) look.problems += tally.problems;
   for (const auto& [signature, count] : total.signatures) look.signatures.insert(signature);
   return look;
 }
@@ -561,6 +568,12 @@ const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
           "contacts at most 100 are finished. After the last unit of --problems half a minute of each thread "
           "is used in any case; what waits then is left to --finish");
   verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
+  verb.Option("--solver", o.solver,
+              "test this solver in place of the published algorithm: NAME.so, or a program")
+      .Details(
+          "It is given the problems in a process of its own, and its forces are judged by the conditions of "
+          "its "
+          "law: search/under_test/README.md. With --finish, the solver that the store tests");
   verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
       .Details(
           "The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, "
@@ -568,7 +581,7 @@ const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
           "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
           "fails, "
           "or takes a minute, is reported");
-  verb.Prints(o.json, "what a store holds", "summary | optimized");
+  verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())
     verb.footer += fmt::format("\n  {}: {}", row.name, row.distribution);
@@ -579,7 +592,7 @@ const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
-  verb.Prints(o.json, "what a store holds", "summary | optimized");
+  verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
 });
 
 const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
@@ -587,7 +600,7 @@ const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
   verb.Flag("--salvage", o.salvage, "take what is sound of damaged stores, and say what is left out");
-  verb.Prints(o.json, "what a store holds", "summary | optimized");
+  verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
 });
 
 const ListedVerb kProblemVerb("Search", 60, [](CommandLine& program) {

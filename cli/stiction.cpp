@@ -5,11 +5,13 @@
 #include "cli/help.h"
 #include "cli/program.h"
 #include "cli/version.h"
+#include "search/under_test/host.h"
 
 namespace {
 
 int Main(int argc, char** argv) {
   using namespace stiction;
+  if (const auto exit = RunAsSolverHost(argc, argv)) return *exit;
   CommandLine program("stiction: does Baraff's algorithm for contact forces with static friction always end?",
                       "stiction " + BuildId(), kExitCodes);
   program.AddListed({"Search", "One problem", "Scenes and other programs' files", "About stiction"});

@@ -6,11 +6,13 @@
 #include "cli/help.h"
 #include "cli/program.h"
 #include "cli/version.h"
+#include "search/under_test/host.h"
 
 namespace {
 
 int Main(int argc, char** argv) {
   using namespace stiction;
+  if (const auto exit = RunAsSolverHost(argc, argv)) return *exit;
   CommandLine program("stiction-search: the verbs of stiction that search, and tell what a search found",
                       "stiction " + BuildId(), kExitCodes);
   program.AddListed({"Search"});

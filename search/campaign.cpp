@@ -185,6 +185,32 @@ const FormOf<Campaign> kParentsForm = {
                  : WriteList(campaign.parents, [](const Candidate& parent) { return ToJson(parent); });
     }};
 
+const FormOf<Campaign> kSolverForm = {
+    "{name: text, version: text, law: text, accuracy: text}",
+    [](const JsonPlace& place, Campaign& campaign) {
+      place.RequireObject();
+      place.AllowKeys({"name", "version", "law", "accuracy"});
+      const auto text = [&place](const char* key) { return place.Required(key, "a text").Text("a text"); };
+      const std::string law = text("law");
+      const auto* const known = std::find(kSolverLawNames.begin(), kSolverLawNames.end(), law);
+      if (known == kSolverLawNames.end())
+        place.Required("law", "a law").Refuse(fmt::format("one of {}", fmt::join(kSolverLawNames, ", ")));
+      const auto accuracy = ParseRational(text("accuracy"));
+      if (!accuracy || *accuracy <= 0)
+        place.Required("accuracy", "a number").Refuse("a number above 0, as text");
+      if (text("name").empty()) place.Required("name", "a text").Refuse("a name");
+      campaign.solver = {text("name"), text("version"), static_cast<SolverLaw>(known - kSolverLawNames.begin()),
+                         text("accuracy")};
+    },
+    [](const Campaign& campaign) {
+      const SolverUnderTest& solver = campaign.solver;
+      return solver.name.empty() ? Json()
+                                 : Json{{"name", solver.name},
+                                        {"version", solver.version},
+                                        {"law", kSolverLawNames[static_cast<std::size_t>(solver.law)]},
+                                        {"accuracy", solver.accuracy}};
+    }};
+
 namespace {
 
 constexpr std::span<const FieldOf<Campaign>> kFields = kCampaignFields;
@@ -231,7 +257,19 @@ static void RequireParents(const Campaign& campaign) {
   }
 }
 
+// A solver under test is given contacts that rest, and problems as they are drawn.
+static void RequireTestable(const Campaign& campaign) {
+  if (campaign.solver.name.empty()) return;
+  if (!campaign.objective.empty())
+    throw InputError("solver: found one with an objective, expected --solver or --objective alone");
+  for (const GeneratorId id : campaign.generators)
+    if (Row(id).other_kind == ContactKind::kSliding)
+      throw InputError(
+          fmt::format("solver: found generator {}, expected one without sliding contacts", Row(id).name));
+}
+
 void RequireConsistent(const Campaign& campaign) {
+  RequireTestable(campaign);
   for (const GeneratorId id : campaign.generators) {
     if (campaign.gravity_only && !Row(id).has_gravity) {
       throw InputError(fmt::format("gravity only: found generator {}, expected one of bodies", Row(id).name));

@@ -14,6 +14,7 @@
 #include "corpus/store/store.h"
 #include "search/adversary/candidate.h"
 #include "search/generators/generators.h"
+#include "search/under_test/solver.h"
 #include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 
@@ -46,14 +47,16 @@ struct Campaign {
   std::string objective;
   std::string optimizer = "evolution";
   std::vector<Candidate> parents;  // that an optimizer starts from, besides random ones
-  std::string note;                // why it is run, for people
+  // Is given the problems in place of the published algorithm, and its answers are judged (under_test/).
+  SolverUnderTest solver;
+  std::string note;  // why it is run, for people
 
   Campaign();
   bool operator==(const Campaign&) const = default;
 };
 
 extern const FormOf<Campaign> kGeneratorsForm, kContactsForm, kPaletteForm, kPoliciesForm, kArithmeticForm,
-    kObjectiveForm, kOptimizerForm, kParentsForm;
+    kObjectiveForm, kOptimizerForm, kParentsForm, kSolverForm;
 
 // In the order of a definition.
 inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
@@ -82,6 +85,7 @@ inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
     {"objective", &kObjectiveForm},
     {"optimizer", &kOptimizerForm},
     {"parents", &kParentsForm},
+    {"solver", &kSolverForm, "solver under test"},
     {"note", &Campaign::note, "note", "one line that says why this is searched",
      "Told by status and reports; the same search with another note is the same", FieldUse::kRemark},
 });

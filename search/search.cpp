@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -15,6 +17,7 @@
 #include "corpus/store/store_lock.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/testimony.h"
+#include "search/under_test/solver_unit.h"
 #include "search/units/backlog.h"
 #include "search/units/finish.h"
 #include "search/units/finishing_time.h"
@@ -33,6 +36,26 @@ double ShareOf(const Campaign& campaign, const SearchOptions& options) {
   if (options.only_finish) return 1;
   return options.finishing.value_or(campaign.objective.empty() ? kFinishingShare : kFinishingShareOfObjective);
 }
+
+// What a thread works with.
+struct Worker {
+  Worker(const Campaign& campaign, const SearchOptions& options) : runner(campaign) {
+    if (campaign.solver.name.empty()) return;
+    if (options.solver.empty())
+      throw InputError(fmt::format("{}: found a search that tests {}, expected --solver FILE with it",
+                                   options.store.string(), campaign.solver.name));
+    solver = std::make_unique<SolverProcess>(options.solver);
+    if (solver->about() != campaign.solver)
+      throw InputError(fmt::format("--solver: found {} {}, expected {} {}, which this search tests",
+                                   solver->about().name, solver->about().version, campaign.solver.name,
+                                   campaign.solver.version));
+  }
+  // Processor time of this thread and its solver.
+  double Seconds() const { return ThreadSeconds() + (solver ? solver->Seconds() : 0); }
+
+  UnitRunner runner;
+  std::unique_ptr<SolverProcess> solver;  // null: the published algorithm is searched
+};
 
 class Search {
  public:
@@ -108,13 +131,13 @@ class Search {
 
   void RunThread() {
     try {
-      UnitRunner runner(campaign_);
+      Worker worker(campaign_, options_);
       FinishingTime time{share_};
       while (!Stopped()) {
-        if (FinishOne(time)) continue;
-        const double before = ThreadSeconds();
-        if (RunOneUnit(runner)) {
-          time.searching += ThreadSeconds() - before;
+        if (FinishOne(worker, time)) continue;
+        const double before = worker.Seconds();
+        if (RunOneUnit(worker)) {
+          time.searching += worker.Seconds() - before;
         } else if (Idle(time)) {
           break;
         }
@@ -158,8 +181,9 @@ class Search {
   }
 
   // Empty if it was cancelled: half an optimized unit is none.
-  std::optional<UnitResult> Run(UnitRunner& runner, std::int64_t unit, const std::vector<Candidate>& parents) {
-    if (campaign_.objective.empty()) return runner.Run(unit);
+  std::optional<UnitResult> Run(Worker& worker, std::int64_t unit, const std::vector<Candidate>& parents) {
+    if (worker.solver) return RunSolverUnit(campaign_, unit, *worker.solver, [this] { return Stopped(); });
+    if (campaign_.objective.empty()) return worker.runner.Run(unit);
     WorkMeter meter;  // candidates are tried and confirmed in turn: all of it counts as what is not named
     UnitResult result = RunOptimizedUnit(campaign_, unit, parents, [this] { return Stopped(); });
     result.time = meter.Read();
@@ -167,7 +191,7 @@ class Search {
     return result;
   }
 
-  bool RunOneUnit(UnitRunner& runner) {
+  bool RunOneUnit(Worker& worker) {
     std::unique_lock lock(mutex_);
     const auto unit = NextUnit();
     if (!unit) return false;
@@ -175,7 +199,7 @@ class Search {
     in_work_.insert(*unit);
     const auto parents = campaign_.objective.empty() ? std::vector<Candidate>() : heritage_.ParentsOf(*unit);
     lock.unlock();
-    const std::optional<UnitResult> run = Run(runner, *unit, parents);
+    const std::optional<UnitResult> run = Run(worker, *unit, parents);
     lock.lock();
     --busy_;
     in_work_.erase(*unit);
@@ -201,7 +225,7 @@ class Search {
     return true;
   }
 
-  bool FinishOne(FinishingTime& share) {
+  bool FinishOne(Worker& worker, FinishingTime& share) {
     std::unique_lock lock(mutex_);
     if (share.ForTry(0, UnitsLeft()) <= 0) return false;
     std::optional<Backlog::Entry> entry = backlog_.Take();
@@ -209,17 +233,19 @@ class Search {
     ++busy_;
     const double allowed = share.ForTry(entry->tries, UnitsLeft());
     lock.unlock();
-    const double start = ThreadSeconds();
+    const double start = worker.Seconds();
     double seconds_of_ipopt = 0;  // in a process of its own
-    const auto spent = [&] { return ThreadSeconds() - start + seconds_of_ipopt; };
+    const auto spent = [&] { return worker.Seconds() - start + seconds_of_ipopt; };
     ExactMethods methods;
     methods.ipopt = [&, ask = methods.ipopt](const ExactProblem& problem) {
       const Feasibility answer = ask(problem);
       seconds_of_ipopt += answer.seconds;
       return answer;
     };
-    const auto finished = FinishFinding(
-        entry->finding, campaign_.limits, [&] { return Stopped() || spent() > allowed; }, methods);
+    const auto cancelled = [&] { return Stopped() || spent() > allowed; };
+    const auto finished = worker.solver
+                              ? FinishSolverFinding(entry->finding, campaign_, *worker.solver, cancelled)
+                              : FinishFinding(entry->finding, campaign_.limits, cancelled, methods);
     share.finishing += spent();
     ProcessorTime time;
     time.finishing = static_cast<std::int64_t>(1e6 * spent());

@@ -34,6 +34,7 @@ struct SearchOptions {
   std::optional<double> minutes;         // wall clock, everything counted
   std::optional<std::int64_t> problems;  // of the whole campaign, rounded up to whole units
   std::optional<double> finishing;  // share of processor time, 0 to 1; by default as above; 0: none, 1: all
+  std::vector<std::string> solver;  // runs the solver under test (under_test/solver_process.h); empty: none
   bool only_finish = false;         // no units: all findings that are not finished
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void()> started = {};  // the store is open: called before the first unit

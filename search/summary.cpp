@@ -16,6 +16,7 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/under_test/solver_report.h"
 
 namespace stiction {
 namespace {
@@ -251,7 +252,9 @@ ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
 Json SummaryToJson(const Store& store) {
   Campaign campaign = CampaignOf(store.identity(), "summary");
   Json summary;
-  if (campaign.objective.empty()) {
+  if (!campaign.solver.name.empty()) {
+    summary = SolverToJson(store);
+  } else if (campaign.objective.empty()) {
     WriteTold<S>(kSummaryMembers, {store, TotalsOf(store)}, summary);
   } else {
     WriteTold<O>(kOptimizedMembers,

@@ -23,7 +23,7 @@ bool IsOutcome(std::string_view text) {
 
 bool IsKind(std::string_view text) {
   return text == kSafeCycle || text == kDisagreementOfMethods || text == "wrong-answer" ||
-         text == "disagreement" || IsOutcome(text);
+         text == "disagreement" || IsOutcome(text) || IsOfSolver(text);
 }
 
 // Refuses texts of one place.
@@ -102,7 +102,28 @@ void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
   if (!claim.json().is_null()) claim.Text("a claim or null");
 }
 
+// Of a solver under test.
+void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has_minimized) {
+  const std::string source = witness.place() + ": facts";
+  const Json json = ParseJson(finding.facts, source);
+  const JsonPlace root(json, source, "");
+  root.RequireObject();
+  root.AllowKeys({"found", "minimized", "alone"});
+  root.Required("found", "facts of the problem as found").RequireObject();
+  const auto alone = root.Optional("alone"), small = root.Optional("minimized");
+  witness.Require(alone.has_value() == finding.done, "facts", alone ? "those of a finished finding" : "others",
+                  "whether its problem alone shows it, of a finished finding and only there");
+  if (alone && !alone->json().is_boolean()) alone->Refuse("true or false");
+  witness.Require(small.has_value() == has_minimized, "facts", small ? "those of a minimized problem" : "none",
+                  "those of a minimized problem where there is one, and only there");
+  if (!small) return;
+  small->RequireObject();
+  small->Required("contacts", "a number of contacts")
+      .Integer(0, finding.contacts, "at most as many as were found");
+}
+
 void RequireFacts(const Witness& witness, const Finding& finding, const ExactProblem* minimized) {
+  if (IsOfSolver(finding.kind)) return RequireSolverFacts(witness, finding, minimized != nullptr);
   if (finding.facts.empty())
     return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
   const std::string source = witness.place() + ": facts";
@@ -194,6 +215,26 @@ void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campa
   RequireStrata(witness, key, tally, campaign);
 }
 
+// Every problem came to one end, but for leaks, which are seen beside it.
+void RequireUnderTest(const Witness& witness, const UnderTestKey& key, const UnderTestTally& tally,
+                      const Campaign& campaign) {
+  const auto generator = FindGenerator(key.generator);
+  const auto& all = campaign.generators;
+  witness.RequireOneOf("generator", key.generator,
+                       generator && std::find(all.begin(), all.end(), *generator) != all.end(),
+                       "one of the campaign's");
+  witness.RequireOneOf("friction", key.friction, IsFriction(key.friction, campaign), "one of the campaign's");
+  const auto& sizes = campaign.contacts;
+  witness.Require(std::find(sizes.begin(), sizes.end(), key.contacts) != sizes.end(), "contacts",
+                  std::to_string(key.contacts), "one of the campaign's");
+  std::int64_t ends = 0;
+  ForEachCounter(tally, [&ends](std::string_view name, std::int64_t count) {
+    if (name != "problems" && name != "leak" && name != "misses_coulomb") ends += count;
+  });
+  witness.Require(ends == tally.problems, "under_test", fmt::format("{} ends", ends),
+                  fmt::format("as many as problems, {}", tally.problems));
+}
+
 void RequireLoops(const Witness& witness, int contacts, const LoopTally& tally) {
   const auto at_most = [&](const char* what, std::int64_t count, std::int64_t most) {
     witness.Require(count <= most, "loops", fmt::format("{} {} of {} contacts", count, what, contacts),
@@ -212,7 +253,9 @@ void RequireLoops(const Witness& witness, int contacts, const LoopTally& tally) 
 
 void RequireSound(const Finding& finding, const Campaign& campaign, const std::string& file) {
   const Witness witness(fmt::format("{}: finding {}", file, Shortened(finding.signature, 100)));
-  witness.RequireOneOf("kind", finding.kind, IsKind(finding.kind), "a kind of findings");
+  witness.RequireOneOf("kind", finding.kind,
+                       IsKind(finding.kind) && IsOfSolver(finding.kind) == !campaign.solver.name.empty(),
+                       "a kind of findings of its campaign");
   witness.RequireOneOf("signature", finding.signature, IsKind(KindOf(finding.signature)),
                        "one that begins with a kind");
   const auto in_range = [&witness](const char* what, std::int64_t number) {
@@ -252,6 +295,11 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
     witness.RequireOneOf("signatures", signature, IsKind(KindOf(signature)),
                          "signatures that begin with a kind");
   }
+  const bool tests = !campaign.solver.name.empty();
+  witness.Require(tests ? total.tallies.empty() : total.under_test.empty(), "statistics",
+                  tests ? "runs of the published algorithm" : "answers of a solver under test",
+                  "what the campaign leaves");
+  for (const auto& [key, tally] : total.under_test) RequireUnderTest(witness, key, tally, campaign);
   const auto is_size = [&campaign](int contacts) {
     return std::find(campaign.contacts.begin(), campaign.contacts.end(), contacts) != campaign.contacts.end();
   };

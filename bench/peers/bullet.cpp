@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bullet's copy of the solver, in its build for doubles.
+// Bullet's copy of the solver, and its Lemke's method on the frictionless problem, in its build for doubles.
 
 #include "bench/peers/dantzig.h"
 
 #ifdef STICTION_PEER_BULLET
 #include <BulletDynamics/MLCPSolvers/btDantzigLCP.h>
+#include <BulletDynamics/MLCPSolvers/btLemkeAlgorithm.h>
 #endif
 
 namespace stiction {
@@ -29,10 +30,46 @@ class BulletContender : public DantzigContender {
   btDantzigScratchMemory scratch_;
 };
 
+class BulletLemkeContender : public Contender {
+ public:
+  void Load(const std::vector<PeerProblem>& problems) override {
+    loaded_.clear();
+    for (const PeerProblem& problem : problems) {
+      Loaded& to = loaded_.emplace_back();
+      const int rows = problem.rows();
+      to.A.resize(rows, rows);
+      to.b.resize(rows);
+      for (int i = 0; i < rows; ++i) {
+        to.b[i] = problem.b[i];
+        for (int j = 0; j < rows; ++j) to.A.setElem(i, j, problem.A(i, j));
+      }
+    }
+  }
+  bool Solve(int k) override {
+    constexpr unsigned kLoops = 1000;  // as many as btLemkeSolver takes
+    btLemkeAlgorithm lemke(loaded_[k].A, loaded_[k].b);
+    const btVectorXu solution = lemke.solve(kLoops);
+    f_ = Eigen::VectorXd::Zero(loaded_[k].b.size());
+    for (int i = 0; i < std::min<int>(solution.size(), static_cast<int>(f_.size())); ++i) f_[i] = solution[i];
+    return lemke.getInfo() == 0;
+  }
+  Eigen::VectorXd Forces() const override { return f_; }
+
+ private:
+  struct Loaded {
+    btMatrixXu A;
+    btVectorXu b;
+  };
+  std::vector<Loaded> loaded_;
+  Eigen::VectorXd f_;
+};
+
 }  // namespace
+std::unique_ptr<Contender> MakeBulletLemke() { return std::make_unique<BulletLemkeContender>(); }
 std::unique_ptr<Contender> MakeBullet(bool friction) { return std::make_unique<BulletContender>(friction); }
 #else
 std::unique_ptr<Contender> MakeBullet(bool) { return nullptr; }
+std::unique_ptr<Contender> MakeBulletLemke() { return nullptr; }
 #endif
 
 }  // namespace stiction

@@ -35,6 +35,7 @@ class Contender {
 std::unique_ptr<Contender> MakeOde(bool friction, double cfm);  // libode-dev
 std::unique_ptr<Contender> MakeDart(bool friction);             // libdart-external-odelcpsolver-dev
 std::unique_ptr<Contender> MakeBullet(bool friction);           // libbullet-dev
+std::unique_ptr<Contender> MakeBulletLemke();                   // likewise; Lemke's method without friction
 // libsiconos-numerics-dev
 enum class SiconosMethod {
   kLcpLemke,

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "certify/exact/ipopt_process.h"
+#include "certify/exact/line_process.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/qp.h"
 #include "corpus/json.h"
@@ -22,6 +22,26 @@ namespace stiction {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kProtocol = 1;
+constexpr double kGreetingPatience = 30;  // seconds; loading libraries on a busy machine
+
+// Whether `line` is what a program of this protocol says first.
+bool IsGreeting(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  return json.is_object() && json.value("program", Json()) == "stiction-ipopt" &&
+         json.value("protocol", Json()) == kProtocol;
+}
+
+// Runs the program and waits for its greeting. InputError if it cannot be run, or does not speak the protocol.
+std::unique_ptr<LineProcess> StartIpopt(const std::filesystem::path& program) {
+  auto process = std::make_unique<LineProcess>(std::vector{program.string()}, "the program stiction-ipopt");
+  const LineProcess::Line line = process->Read(LineProcess::After(kGreetingPatience));
+  if (line.end == LineProcess::End::kLine && IsGreeting(line.text)) return process;
+  throw InputError(fmt::format(
+      "{}: found {}, expected the program stiction-ipopt, protocol {}", program.string(),
+      line.end == LineProcess::End::kLine ? "\"" + Shortened(line.text) + "\"" : "no greeting", kProtocol));
+}
 
 double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -93,7 +113,7 @@ struct IpoptProposer::Point {
 // ---- The proposer --------------------------------------------------------------------------------
 
 IpoptProposer::IpoptProposer(const std::filesystem::path& program)
-    : program_(program), process_(IpoptProcess::Start(program)) {}
+    : program_(program), process_(StartIpopt(program)) {}
 
 IpoptProposer::~IpoptProposer() = default;
 
@@ -105,17 +125,17 @@ std::optional<IpoptProposer::Point> IpoptProposer::Ask(const std::string& reques
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (!process_) {
       ++statistics.restarts;
-      process_ = IpoptProcess::Start(program_);
+      process_ = StartIpopt(program_);
     }
     // Kept only if it answers: whatever is thrown ends it.
-    std::unique_ptr<IpoptProcess> process = std::move(process_);
-    const IpoptProcess::Line line = process->Exchange(request, patience);
-    if (line.end == IpoptProcess::End::kLine) {
+    std::unique_ptr<LineProcess> process = std::move(process_);
+    const LineProcess::Line line = process->Exchange(request, patience);
+    if (line.end == LineProcess::End::kLine) {
       Point point = ReadPoint(line.text, statistics);
       process_ = std::move(process);
       return point;
     }
-    if (line.end == IpoptProcess::End::kTimeout) {
+    if (line.end == LineProcess::End::kTimeout) {
       ++statistics.timeouts;
       return std::nullopt;
     }

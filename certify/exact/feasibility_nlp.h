@@ -102,7 +102,7 @@ void ForEachField(S& s, Visit visit) {
 // beside the executable.
 std::filesystem::path FindIpoptProgram();
 
-class IpoptProcess;
+class LineProcess;
 
 // Owns one process; one per thread.
 class IpoptProposer {
@@ -138,7 +138,7 @@ class IpoptProposer {
   Point ReadPoint(const std::string& text, ProposalStatistics& statistics) const;
 
   std::filesystem::path program_;
-  std::unique_ptr<IpoptProcess> process_;  // empty after it died
+  std::unique_ptr<LineProcess> process_;  // empty after it died
 };
 
 }  // namespace stiction

@@ -9,6 +9,13 @@
 //   undecided                in space: a loop over doubles that intervals neither prove nor deny
 //   wrong-answer             doubles said solved, with an error above the bound of the gate
 //   disagreement             doubles ended in another outcome than exact numbers, of the same problem
+//
+// And of a solver under test (search/under_test/):
+//
+//   crash, hang, leak        its process ended, its budget of time did, its memory grows
+//   not-finite               it called solved what has a force that is not finite
+//   silent-wrong             or misses a condition of its law by more than the accuracy that it states
+//   refused-solvable         it gave up, and there is a solution
 
 #ifndef STICTION_CORPUS_RECORD_KINDS_H_
 #define STICTION_CORPUS_RECORD_KINDS_H_
@@ -26,6 +33,9 @@ inline constexpr int Gravity(std::string_view kind) {
   return kind == kSafeCycle ? 0 : kind == kDisagreementOfMethods ? 1 : 2;
 }
 inline constexpr bool IsGrave(std::string_view kind) { return Gravity(kind) < 2; }
+
+// A failure of a solver under test.
+bool IsOfSolver(std::string_view kind);
 
 // A failure of doubles, and none of the algorithm: wrong-answer, disagreement.
 bool IsOfDoubles(std::string_view kind);

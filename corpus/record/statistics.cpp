@@ -35,8 +35,7 @@ void AddCounters(Tally& sums, const Tally& tally) {
 }
 
 template <class Tally>
-Json CountersToJson(int contacts, const Tally& tally) {
-  Json json = {{"contacts", contacts}};
+Json CountersToJson(const Tally& tally, Json json) {
   ForEachCounter(tally, [&json](const char* name, std::int64_t value) { json[name] = value; });
   return json;
 }
@@ -142,6 +141,7 @@ void Record::Merge(const Record& other) {
     AddTo(loops[contacts].by_zero_steps, tally.by_zero_steps);
   }
   for (const auto& [signature, sketch] : other.words) words[signature].Merge(sketch);
+  for (const auto& [key, tally] : other.under_test) AddCounters(under_test[key], tally);
 }
 
 std::string Serialize(const Record& record) {
@@ -158,17 +158,18 @@ std::string Serialize(const Record& record) {
   Json signatures = Json::object();
   for (const auto& [signature, count] : record.signatures) signatures[signature] = count;
   Json existence = Json::array();
-  for (const auto& [contacts, tally] : record.existence) existence.push_back(CountersToJson(contacts, tally));
+  for (const auto& [contacts, tally] : record.existence)
+    existence.push_back(CountersToJson(tally, {{"contacts", contacts}}));
   Json agreement = Json::array();
   for (const auto& [contacts, tally] : record.agreement) {
-    Json entry = CountersToJson(contacts, tally);
+    Json entry = CountersToJson(tally, {{"contacts", contacts}});
     entry["words"] = ToJson(tally.words);
     entry["solutions"] = ToJson(tally.solutions);
     agreement.push_back(std::move(entry));
   }
   Json loops = Json::array();
   for (const auto& [contacts, tally] : record.loops) {
-    Json entry = CountersToJson(contacts, tally);
+    Json entry = CountersToJson(tally, {{"contacts", contacts}});
     entry["by_zero_steps"] = ToJson(tally.by_zero_steps);
     loops.push_back(std::move(entry));
   }
@@ -177,10 +178,16 @@ std::string Serialize(const Record& record) {
     Json& hashes = words[signature] = Json::array();
     for (const std::uint64_t hash : sketch.hashes()) hashes.push_back(fmt::format("{:016x}", hash));
   }
-  return Json{{"tallies", std::move(tallies)},     {"signatures", std::move(signatures)},
-              {"existence", std::move(existence)}, {"agreement", std::move(agreement)},
-              {"loops", std::move(loops)},         {"words", std::move(words)}}
-      .dump();
+  Json json = {{"tallies", std::move(tallies)},     {"signatures", std::move(signatures)},
+               {"existence", std::move(existence)}, {"agreement", std::move(agreement)},
+               {"loops", std::move(loops)},         {"words", std::move(words)}};
+  for (const auto& [key, tally] : record.under_test)
+    json["under_test"].push_back(CountersToJson(tally, {{"generator", key.generator},
+                                                        {"contacts", key.contacts},
+                                                        {"friction", key.friction},
+                                                        {"rank", key.rank},
+                                                        {"spread", key.spread}}));
+  return json.dump();
 }
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -306,6 +313,12 @@ Tally ReadTally(const JsonPlace& place) {
   return tally;
 }
 
+UnderTestKey ReadUnderTestKey(const JsonPlace& place) {
+  const auto text = [&place](const char* name) { return place.Required(name, "a text").Text("a text"); };
+  const auto small = [&place](const char* name) { return ReadSmall(place.Required(name, "a number")); };
+  return {text("generator"), small("contacts"), text("friction"), small("rank"), small("spread")};
+}
+
 TallyKey ReadKey(const JsonPlace& place) {
   const auto text = [&place](const char* name) { return place.Required(name, "a text").Text("a text"); };
   return {text("generator"), ReadSmall(place.Required("contacts", "a number")), text("policy"), text("method"),
@@ -318,7 +331,7 @@ Record ParseRecord(const std::string& text, const std::string& source) {
   const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words"});
+  root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words", "under_test"});
   Record record;
   ForEachIn(root.Required("tallies", "a list"), [&record](const JsonPlace& entry) {
     PlaceFor(record.tallies, ReadKey(entry), entry, "each generator, size and policy once") = ReadTally(entry);
@@ -344,6 +357,13 @@ Record ParseRecord(const std::string& text, const std::string& source) {
     ReadCounters(entry, tally, {"contacts", "by_zero_steps"});
     ReadHistogram(entry.Required("by_zero_steps", "a list"), tally.by_zero_steps);
   });
+  if (const auto under_test = root.Optional("under_test")) {
+    ForEachIn(*under_test, [&record](const JsonPlace& entry) {
+      UnderTestTally& tally =
+          PlaceFor(record.under_test, ReadUnderTestKey(entry), entry, "each kind of problems once");
+      ReadCounters(entry, tally, {"generator", "contacts", "friction", "rank", "spread"});
+    });
+  }
   const JsonPlace words = root.Required("words", "hashes by signature");
   words.RequireObject();
   for (const auto& [signature, hashes] : words.json().items()) {

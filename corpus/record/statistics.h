@@ -158,6 +158,36 @@ struct LoopTally {
   bool operator==(const LoopTally&) const = default;
 };
 
+// Problems given to a solver under test (search/under_test/), counted together: `spread` is the power of ten
+// below the ratio of the largest to the smallest entry of A's diagonal, which the ratio of masses makes.
+struct UnderTestKey {
+  std::string generator;
+  int contacts = 0;
+  std::string friction;  // of all contacts, "1/2"; kMixedFriction where they differ
+  int rank = 0;          // what rank(A) is at most, as the generator has it
+  int spread = 0;
+
+  auto operator<=>(const UnderTestKey&) const = default;
+};
+
+// What came of them. Failures by kind (corpus/record/kinds.h), each problem once, but `leak`, which may stand
+// beside another.
+struct UnderTestTally {
+  std::int64_t problems = 0;
+  std::int64_t passed = 0;  // called solved, with forces within the accuracy that the solver states
+  std::int64_t crash = 0;
+  std::int64_t hang = 0;
+  std::int64_t not_finite = 0;
+  std::int64_t silent_wrong = 0;
+  std::int64_t refused_solvable = 0;
+  std::int64_t refused = 0;   // given up, and no solution of the solver's law is known
+  std::int64_t unjudged = 0;  // called solved, and what the law asks for is not known
+  std::int64_t leak = 0;
+  std::int64_t misses_coulomb = 0;  // passed by its own law, and further than its accuracy from Coulomb's
+
+  bool operator==(const UnderTestTally&) const = default;
+};
+
 // How many different words (search/units/signature.h) the loops of a group have. Of their hashes the smallest
 // kMost are kept, in order: up to there the number is exact, beyond it follows from how dense they are (the k
 // smallest of N uniform numbers). What a union keeps does not depend on the order in which it was made.
@@ -215,6 +245,21 @@ void ForEachCounter(Tally&& tally, Visit visit) {
   visit("of_zero_steps_alone", tally.of_zero_steps_alone);
 }
 
+template <TallyOf<UnderTestTally> Tally, class Visit>
+void ForEachCounter(Tally&& tally, Visit visit) {
+  visit("problems", tally.problems);
+  visit("passed", tally.passed);
+  visit("crash", tally.crash);
+  visit("hang", tally.hang);
+  visit("not_finite", tally.not_finite);
+  visit("silent_wrong", tally.silent_wrong);
+  visit("refused_solvable", tally.refused_solvable);
+  visit("refused", tally.refused);
+  visit("unjudged", tally.unjudged);
+  visit("leak", tally.leak);
+  visit("misses_coulomb", tally.misses_coulomb);
+}
+
 // All that a unit, a block or a whole campaign counts.
 struct Record {
   std::map<TallyKey, Tally> tallies;
@@ -223,6 +268,7 @@ struct Record {
   std::map<int, AgreementTally> agreement;         // by contacts
   std::map<int, LoopTally> loops;                  // by contacts in the period
   std::map<std::string, WordSketch> words;         // of groups whose signature has no word, by signature
+  std::map<UnderTestKey, UnderTestTally> under_test;
 
   void Merge(const Record& other);
   // visit(key, tally)

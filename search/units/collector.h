@@ -37,17 +37,17 @@ class Strata {
     for (std::size_t i = 0; i < strata_.size(); ++i) {
       if (strata_[i].problems == 0) continue;
       const int friction = static_cast<int>(i) / ranks_ + Drawn::kMixed;
-      tally.strata[{NameOf(friction), static_cast<int>(i) % ranks_}].Merge(strata_[i]);
+      tally.strata[{NameOf(campaign_, friction), static_cast<int>(i) % ranks_}].Merge(strata_[i]);
     }
   }
-
- private:
-  std::string NameOf(int friction) const {
+  // Of a friction as Drawn has it.
+  static std::string NameOf(const Campaign& campaign, int friction) {
     if (friction == Drawn::kMixed) return kMixedFriction;
-    const MuChoice& mu = campaign_.palette[static_cast<std::size_t>(friction)];
+    const MuChoice& mu = campaign.palette[static_cast<std::size_t>(friction)];
     return ToString(Rational(mu.numerator) / Rational(mu.denominator));
   }
 
+ private:
   const Campaign& campaign_;
   int ranks_;
   std::vector<Stratum> strata_;  // rank by rank of the mixed, then of each friction of the palette

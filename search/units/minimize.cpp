@@ -128,6 +128,7 @@ class Minimizer {
  private:
   // What keeps a candidate from being interesting; empty if it is. Cheapest tests first.
   std::optional<std::string> Lacks(const ExactProblem& candidate) const {
+    if (options_.lacks) return options_.lacks(candidate);
     if (!IsSymmetric(candidate)) return "A is not symmetric";
     if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";
     if (!IsInRange(candidate)) return "b is not in range(A)";

@@ -52,6 +52,8 @@ struct MinimizeOptions {
   std::optional<std::int64_t> period;
   // Further than one change at a time goes: seconds to minutes more, so not for every finding of a search.
   bool further = false;
+  // In place of all that: what keeps a problem from being interesting; empty if it is. All that is asked.
+  std::function<std::optional<std::string>(const ExactProblem&)> lacks = {};
   Limits limits;
   std::function<bool()> cancelled = [] { return false; };
 };

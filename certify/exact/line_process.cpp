@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/ipopt_process.h"
+#include "certify/exact/line_process.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -15,53 +15,29 @@
 #include <cmath>
 #include <cstring>
 
-#include "corpus/json.h"
+#include "corpus/input_error.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
-namespace {
 
-constexpr int kProtocol = 1;
-constexpr double kGreetingPatience = 30;  // seconds; loading libraries on a busy machine
-
-using Clock = IpoptProcess::Clock;
-
-Clock::time_point After(double seconds) {
+LineProcess::Clock::time_point LineProcess::After(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// Whether `line` is what a program of this protocol says first.
-bool IsGreeting(const std::string& line) {
-  const Json json = Json::parse(line, nullptr, false);
-  return json.is_object() && json.value("program", Json()) == "stiction-ipopt" &&
-         json.value("protocol", Json()) == kProtocol;
-}
-
-}  // namespace
-
-std::unique_ptr<IpoptProcess> IpoptProcess::Start(const std::filesystem::path& program) {
-  std::unique_ptr<IpoptProcess> process(new IpoptProcess(program));
-  const Line line = process->Read(After(kGreetingPatience));
-  if (line.end == End::kLine && IsGreeting(line.text)) return process;
-  throw InputError(
-      fmt::format("{}: found {}, expected the program stiction-ipopt, protocol {}", program.string(),
-                  line.end == End::kLine ? "\"" + Shortened(line.text) + "\"" : "no greeting", kProtocol));
-}
-
-IpoptProcess::IpoptProcess(const std::filesystem::path& program) {
+LineProcess::LineProcess(std::vector<std::string> command, const std::string& expected) {
   std::array<int, 2> ends;
   STICTION_CHECK(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0, std::strerror(errno));
   socket_ = ends[0];
-  const int error = Spawn(program.string(), ends[1]);
+  const int error = Spawn(command, ends[1]);
   close(ends[1]);
   if (error == 0) return;
   close(socket_);
-  throw InputError(fmt::format("{}: cannot be run: {}; expected the program stiction-ipopt", program.string(),
-                               std::strerror(error)));
+  throw InputError(
+      fmt::format("{}: cannot be run: {}; expected {}", command.front(), std::strerror(error), expected));
 }
 
 // In a process group of its own, so that an interrupt at the terminal is ours to handle. An errno, or 0.
-int IpoptProcess::Spawn(std::string program, int socket) {
+int LineProcess::Spawn(std::vector<std::string>& command, int socket) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   sigset_t none;
@@ -72,28 +48,36 @@ int IpoptProcess::Spawn(std::string program, int socket) {
   posix_spawn_file_actions_adddup2(&actions, socket, STDOUT_FILENO);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-  std::array<char*, 2> arguments = {program.data(), nullptr};
-  const int error = posix_spawn(&id_, program.c_str(), &actions, &attributes, arguments.data(), environ);
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int error = posix_spawn(&id_, arguments.front(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
 }
 
-IpoptProcess::~IpoptProcess() {
+LineProcess::~LineProcess() {
   close(socket_);
-  kill(id_, SIGKILL);  // it holds nothing
-  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  if (!has_ended_) kill(id_, SIGKILL);  // it holds nothing
+  WaitStatus();
 }
 
-IpoptProcess::Line IpoptProcess::Exchange(const std::string& request, double patience) {
+int LineProcess::WaitStatus() {
+  while (!has_ended_ && waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
+  }
+  has_ended_ = true;
+  return status_;
+}
+
+LineProcess::Line LineProcess::Exchange(const std::string& request, double patience) {
   const Clock::time_point deadline = After(patience);
   const End end = Write(request, deadline);
   return end == End::kLine ? Read(deadline) : Line{end, {}};
 }
 
 // kLine once all is written.
-IpoptProcess::End IpoptProcess::Write(const std::string& text, Clock::time_point deadline) {
+LineProcess::End LineProcess::Write(const std::string& text, Clock::time_point deadline) {
   for (std::size_t written = 0; written < text.size();) {
     const ssize_t count =
         send(socket_, text.data() + written, text.size() - written, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -109,7 +93,7 @@ IpoptProcess::End IpoptProcess::Write(const std::string& text, Clock::time_point
 }
 
 // The next line, without its end.
-IpoptProcess::Line IpoptProcess::Read(Clock::time_point deadline) {
+LineProcess::Line LineProcess::Read(Clock::time_point deadline) {
   while (true) {
     const std::size_t end = received_.find('\n');
     if (end != std::string::npos) {
@@ -123,7 +107,7 @@ IpoptProcess::Line IpoptProcess::Read(Clock::time_point deadline) {
 }
 
 // False if the deadline comes first. The socket is ready, too, if the process died.
-bool IpoptProcess::Wait(short events, Clock::time_point deadline) const {
+bool LineProcess::Wait(short events, Clock::time_point deadline) const {
   while (true) {
     const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
     if (left <= 0) return false;
@@ -134,7 +118,7 @@ bool IpoptProcess::Wait(short events, Clock::time_point deadline) const {
 }
 
 // False if there will be nothing more.
-bool IpoptProcess::Receive() {
+bool LineProcess::Receive() {
   std::array<char, 65536> buffer;
   const ssize_t count = recv(socket_, buffer.data(), buffer.size(), 0);
   if (count < 0 && errno == EINTR) return true;

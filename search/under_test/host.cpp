@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/under_test/host.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "corpus/json.h"
+#include "search/under_test/stiction_solver.h"
+
+namespace stiction {
+namespace {
+
+// Functions of the library; `error` says what is missing.
+struct Library {
+  decltype(&stiction_solver_describe) describe = nullptr;
+  decltype(&stiction_solver_create) create = nullptr;
+  decltype(&stiction_solver_solve) solve = nullptr;
+  decltype(&stiction_solver_destroy) destroy = nullptr;
+  std::string error;
+};
+
+template <class Function>
+void Find(void* handle, const char* name, Function& function, std::string& error) {
+  function = reinterpret_cast<Function>(dlsym(handle, name));
+  if (function == nullptr && error.empty()) error = fmt::format("no function {}", name);
+}
+
+Library Load(const std::string& file) {
+  Library library;
+  void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    library.error = dlerror();
+    return library;
+  }
+  Find(handle, "stiction_solver_describe", library.describe, library.error);
+  Find(handle, "stiction_solver_create", library.create, library.error);
+  Find(handle, "stiction_solver_solve", library.solve, library.error);
+  Find(handle, "stiction_solver_destroy", library.destroy, library.error);
+  if (!library.error.empty()) return library;
+  const int interface = library.describe()->interface;
+  if (interface != STICTION_SOLVER_INTERFACE)
+    library.error = fmt::format("interface {}, expected {}", interface, int{STICTION_SOLVER_INTERFACE});
+  return library;
+}
+
+// A problem in the form of the library; keeps its memory, lest a leak hide in ours.
+class Posed {
+ public:
+  void Take(const Json& request, bool is_box) {
+    A_.clear();
+    for (const Json& row : request.at("A")) A_.insert(A_.end(), row.begin(), row.end());
+    b_ = request.at("b").get<std::vector<double>>();
+    mu_ = request.at("mu").get<std::vector<double>>();
+    kinds_.clear(), low_.clear(), high_.clear(), findex_.clear();
+    const int dimension = request.at("dimension");
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < mu_.size(); ++i) {
+      const std::string& kind = request.at("kinds")[i].get_ref<const std::string&>();
+      kinds_.push_back(kind == "bilateral"      ? STICTION_BILATERAL
+                       : kind == "frictionless" ? STICTION_FRICTIONLESS
+                                                : STICTION_STATIC);
+      const int normal = static_cast<int>(low_.size());
+      Add(kind == "bilateral" ? -infinity : 0, infinity, -1);
+      const double bound = is_box ? request.at("bounds")[i].get<double>() : mu_[i];
+      for (int k = 1; k < dimension && kind == "static"; ++k) Add(-bound, bound, is_box ? -1 : normal);
+    }
+    problem_ = {static_cast<int>(mu_.size()),
+                dimension,
+                static_cast<int>(b_.size()),
+                A_.data(),
+                b_.data(),
+                mu_.data(),
+                kinds_.data(),
+                low_.data(),
+                high_.data(),
+                findex_.data()};
+    forces_.assign(b_.size(), 0);
+  }
+
+  const stiction_solver_problem* problem() const { return &problem_; }
+  std::vector<double>& forces() { return forces_; }
+
+ private:
+  void Add(double low, double high, int findex) {
+    low_.push_back(low);
+    high_.push_back(high);
+    findex_.push_back(findex);
+  }
+
+  std::vector<double> A_, b_, mu_, low_, high_, forces_;
+  std::vector<int> kinds_, findex_;
+  stiction_solver_problem problem_ = {};
+};
+
+bool WriteAll(int descriptor, const std::string& text) {
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
+    if (count <= 0) return false;
+    written += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+int AnswerAll(const std::string& file) {
+  mallopt(M_TOP_PAD, 0);  // so that what leaks is seen early
+  const int out = dup(STDOUT_FILENO);
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  const Library library = Load(file);
+  if (!library.error.empty()) {
+    WriteAll(out, JsonText({{"error", library.error}}) + "\n");
+    return 1;
+  }
+  const stiction_solver_info& info = *library.describe();
+  const bool is_box = info.law == std::string("box");
+  WriteAll(out, JsonText({{"solver", info.name},
+                          {"version", info.version},
+                          {"law", info.law},
+                          {"accuracy", NumberToJson(info.accuracy)},
+                          {"protocol", 1}}) +
+                    "\n");
+  void* const solver = library.create();
+  Posed posed;
+  std::string line;
+  while (std::getline(std::cin, line)) {
+    posed.Take(Json::parse(line), is_box);
+    const int solved = library.solve(solver, posed.problem(), posed.forces().data());
+    if (!WriteAll(out, JsonText({{"solved", solved != 0}, {"f", NumbersToJson(posed.forces())}}) + "\n")) break;
+  }
+  library.destroy(solver);
+  return 0;
+}
+
+}  // namespace
+
+std::optional<int> RunAsSolverHost(int argc, char** argv) {
+  if (argc != 3 || std::string_view(argv[1]) != kSolverHostWord) return std::nullopt;
+  return AnswerAll(argv[2]);
+}
+
+}  // namespace stiction

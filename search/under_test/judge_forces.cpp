@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/under_test/judge_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "certify/exact/properties.h"
+#include "certify/exact/solve.h"
+#include "certify/exact/verify_solution.h"
+#include "search/under_test/solver_process.h"
+#include "solver/problem/gate.h"
+
+namespace stiction {
+namespace {
+
+using ForceVector = ExactProblem::Vector;
+
+bool IsCoulombs(SolverLaw law, int dimension) {
+  return law == SolverLaw::kFrictionless || law == SolverLaw::kCoulomb ||
+         (law == SolverLaw::kPyramid && dimension == 2);
+}
+
+struct Bounds {
+  std::vector<Rational> low, high;  // by row
+  std::vector<bool> has_low, has_high;
+};
+
+// What a condition misses, and its name.
+struct Missed {
+  Rational amount = 0;
+  const char* name = "";
+
+  void Add(const Rational& more, const char* of) {
+    if (more > amount) *this = {more, of};
+  }
+};
+
+// The conditions of a contact, by how much each is missed.
+class ContactJudge {
+ public:
+  ContactJudge(const ExactProblem& problem, const ForceVector& f, const ForceVector& a,
+               const Units<Rational>& units)
+      : problem_(problem), f_(f), a_(a), units_(units) {
+    layout_.Assign(problem.contacts, problem.dimension);
+  }
+
+  // `limits`: of the friction of each row, where they are not mu times the normal force.
+  Missed Of(int contact, const std::vector<Rational>* limits) const {
+    const int n = layout_.NormalRowOf(contact);
+    Missed missed;
+    if (problem_.contacts[contact].kind == ContactKind::kBilateral) {
+      missed.Add(InAcceleration(abs(a_[n]), n), "moves");
+      return missed;
+    }
+    missed.Add(InForce(-f_[n], n), "pulls");
+    missed.Add(InAcceleration(-a_[n], n), "moves-inward");
+    missed.Add(std::min(InForce(f_[n], n), InAcceleration(a_[n], n)), "presses-and-separates");
+    if (!problem_.contacts[contact].HasFrictionRows()) return missed;
+    if (limits != nullptr || problem_.dimension == 2) {
+      for (int row = n + 1; row < n + problem_.dimension; ++row)
+        AddFriction(f_[row], a_[row], limits != nullptr ? (*limits)[row] : LimitOf(contact, n),
+                    UnitOf(contact, n, row), InAcceleration(abs(a_[row]), row), missed);
+    } else {
+      const Rational force = Length(f_[n + 1], f_[n + 2]);
+      const Rational unit = std::max(UnitOf(contact, n, n + 1), UnitOf(contact, n, n + 2));
+      const Rational beyond = std::max<Rational>(0, force - LimitOf(contact, n));
+      missed.Add(InUnits(beyond, unit), "friction-beyond-limit");
+    }
+    return missed;
+  }
+
+ private:
+  Rational LimitOf(int contact, int n) const {
+    return problem_.contacts[contact].mu * std::max<Rational>(0, f_[n]);
+  }
+  // Of friction: that of its row, or mu times that of the normal, in whichever an error is less.
+  Rational UnitOf(int contact, int n, int row) const {
+    return std::max<Rational>(units_.force(row), problem_.contacts[contact].mu * units_.force(n));
+  }
+  static void AddFriction(const Rational& force, const Rational& a, const Rational& limit, const Rational& unit,
+                          const Rational& slip, Missed& missed) {
+    const auto in_unit = [&unit](const Rational& x) { return InUnits(std::max<Rational>(0, x), unit); };
+    missed.Add(in_unit(Rational(abs(force) - limit)), "friction-beyond-limit");
+    const bool drives = force * a > 0;
+    const Rational below = drives ? Rational(abs(force) + limit) : Rational(limit - abs(force));
+    missed.Add(std::min(in_unit(below), slip), drives ? "friction-drives-slip" : "slips-below-limit");
+  }
+  Rational InForce(const Rational& x, int row) const {
+    return InUnits(std::max<Rational>(0, x), units_.force(row));
+  }
+  Rational InAcceleration(const Rational& x, int row) const {
+    return InUnits(std::max<Rational>(0, x), units_.acceleration(row));
+  }
+
+  const ExactProblem& problem_;
+  const ForceVector &f_, &a_;
+  const Units<Rational>& units_;
+  RowLayout<Eigen::Dynamic> layout_;
+};
+
+// Forces of the normals alone; empty where they are not unique, or not found.
+std::optional<ForceVector> NormalForces(const ContactProblem<double>& posed) {
+  const ExactProblem normals = ExactOf(PosedFor(SolverLaw::kFrictionless, posed));
+  if (!std::holds_alternative<LdltFactors>(DecideDefinite(normals.A))) return std::nullopt;
+  return SolutionUnder(SolverLaw::kFrictionless, normals);
+}
+
+// Limits of the friction of each row, under the laws that are judged row by row; empty where they are not
+// known.
+std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& posed, SolverLaw law,
+                                              const ForceVector& f) {
+  std::vector<Rational> limits(posed.rows(), Rational(0));
+  std::optional<ForceVector> normals;
+  std::vector<double> fixed;
+  if (law == SolverLaw::kBox) fixed = FixedBounds(posed);
+  if (law == SolverLaw::kFindex && !(normals = NormalForces(posed))) return std::nullopt;
+  int row = 0;
+  for (int i = 0; i < static_cast<int>(posed.contacts.size()); ++i) {
+    const Rational mu(posed.contacts[i].mu);
+    const Rational limit = law == SolverLaw::kBox      ? Rational(fixed[i])
+                           : law == SolverLaw::kFindex ? Rational(mu * abs((*normals)[i]))
+                                                       : Rational(mu * std::max<Rational>(0, f[row]));
+    const int size = posed.contacts[i].HasFrictionRows() ? posed.dimension : 1;
+    for (int k = 1; k < size; ++k) limits[row + k] = limit;
+    row += size;
+  }
+  return limits;
+}
+
+}  // namespace
+
+ExactProblem ExactOf(const ContactProblem<double>& problem) {
+  const auto exact = [](double x) { return Rational(x); };
+  ExactProblem result;
+  result.dimension = problem.dimension;
+  for (const auto& contact : problem.contacts)
+    result.contacts.push_back(
+        {contact.kind, exact(contact.mu), {exact(contact.slip[0]), exact(contact.slip[1])}});
+  result.A = problem.A.unaryExpr(exact);
+  result.b = problem.b.unaryExpr(exact);
+  return result;
+}
+
+JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                         const Eigen::VectorXd& f) {
+  JudgedForces judged;
+  if (!f.allFinite()) {
+    judged.error = std::numeric_limits<double>::infinity();
+    return judged;
+  }
+  const double gate = BoundErrors(posed, FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
+  const bool passes_coulomb = Rational(std::min(gate, std::numeric_limits<double>::max())) <= accuracy;
+  const bool is_coulombs = IsCoulombs(law, posed.dimension);
+  if (is_coulombs && passes_coulomb) {
+    judged.error = gate;
+    return judged;
+  }
+  const ExactProblem problem = ExactOf(posed);
+  const ForceVector exact_f = f.unaryExpr([](double x) { return Rational(x); });
+  const ForceVector a = Accelerations(problem, exact_f);
+  Units<Rational> units;
+  const Errors<Rational> errors = MeasureErrors(problem, FrictionLaw::kCoulomb, exact_f, a, units, Rational(0));
+  const ContactJudge contacts(problem, exact_f, a, units);
+  Rational error = errors.Largest();
+  Missed worst;
+  if (is_coulombs) {
+    if (error > accuracy) worst = contacts.Of(errors.contact, nullptr);
+  } else {
+    const auto limits = LimitsOf(posed, law, exact_f);
+    if (!limits) {
+      judged.is_known = false;
+      return judged;
+    }
+    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+      const Missed missed = contacts.Of(i, &*limits);
+      worst.Add(missed.amount, missed.name);
+    }
+    judged.misses_coulomb = worst.amount <= accuracy && error > accuracy;
+    error = worst.amount;
+  }
+  judged.error = ToDouble(error);
+  if (error <= accuracy) return judged;
+  // In space what is left is the direction of friction; in the plane a mode that is missed by a little in each
+  // part.
+  judged.miss = worst.amount * 2 >= error ? worst.name : "friction-askew";
+  return judged;
+}
+
+std::optional<ForceVector> SolutionUnder(SolverLaw law, const ExactProblem& posed) {
+  if (posed.dimension != 2 || !IsCoulombs(law, 2)) return std::nullopt;
+  const ExactAnswer answer = Solve(posed, "complete", {});
+  if (!answer.Solved() || FindViolation(posed, answer.f)) return std::nullopt;
+  return answer.f;
+}
+
+}  // namespace stiction

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Judges forces that a solver under test calls a solution, by the conditions of its law over rationals: doubles
+// are exact numbers.
+//
+// The laws `frictionless` and `coulomb`, and `pyramid` in the plane, which is the same: errors as the gate of
+// this suite measures them (solver/problem/errors.h). All others row by row, each between its bounds:
+//
+//   f = low, a >= 0        f = high, a <= 0        low <= f <= high, a = 0
+//
+// what the nearest of the three misses, forces and accelerations in the units of the row
+// (solver/problem/units.h), a tangent's force also in mu times that of its normal. A miss is named after the
+// condition that is missed by most.
+
+#ifndef STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
+#define STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
+
+#include <optional>
+#include <string>
+
+#include "corpus/exact_problem.h"
+#include "search/under_test/solver.h"
+
+namespace stiction {
+
+struct JudgedForces {
+  bool is_known = true;  // false under `findex` where the problem of the normals has more than one solution
+  double error = 0;      // relative; infinite where a force is not finite
+  std::string miss;      // what is missed by more than the accuracy: "pulls", "moves-inward",
+                         // "presses-and-separates", "moves" (bilateral), "friction-beyond-limit",
+                         // "friction-drives-slip", "slips-below-limit", "friction-askew"; empty: it passes
+  bool misses_coulomb = false;  // passes, and misses Coulomb's law by more than the accuracy
+};
+
+ExactProblem ExactOf(const ContactProblem<double>& problem);
+
+// The problem as posed (solver_process.h).
+JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                         const Eigen::VectorXd& f);
+
+// Forces that satisfy the law exactly, verified; empty if none are known. Of the laws whose conditions are
+// Coulomb's: `frictionless`, `coulomb` and `pyramid` in the plane.
+std::optional<ExactProblem::Vector> SolutionUnder(SolverLaw law, const ExactProblem& posed);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of a solver under test: how often it fails and how, by what problems are like, and its smallest
+// findings.
+
+#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_
+#define STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_
+
+#include <string>
+
+#include "corpus/json_text.h"
+#include "corpus/store/store.h"
+
+namespace stiction {
+
+// Whether the store is of a search that tests a solver: what both below require.
+bool TestsSolver(const Store& store, const std::string& file);
+
+std::string SolverText(const Store& store, const std::string& file);
+Json SolverToJson(const Store& store);
+std::string ShapeOfSolver();  // of what it gives (cli/schema.h)
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A unit of a campaign that tests a solver, and what becomes of its findings.
+//
+// The solver's process is new at the beginning of a unit, and after a crash or a hang: what it keeps between
+// problems comes from the unit alone, so that units are the same whoever runs them. Problems are drawn over
+// doubles, and what a finding has is what the solver was given.
+
+#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
+#define STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
+
+#include <functional>
+#include <optional>
+
+#include "search/campaign.h"
+#include "search/under_test/solver_process.h"
+#include "search/units/unit.h"
+
+namespace stiction {
+
+// Half a unit is none: empty if it was cancelled.
+std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
+                                        const std::function<bool()>& cancelled);
+
+// The finding seen again with the problem alone in a new process, and made small while it fails alike: the same
+// kind of failure, in the same way. Beside it the certificate that there is a solution, where one is known. A
+// failure that the problem alone does not show stays as it was found. Empty if it was cancelled.
+std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaign& campaign,
+                                           SolverProcess& process, const std::function<bool()>& cancelled);
+
+}  // namespace stiction
+
+#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a solver under test is judged by. What becomes of real ones: tests/cli/under_test_test.py.
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "corpus/json.h"
+#include "search/campaign.h"
+#include "search/under_test/judge_forces.h"
+#include "search/under_test/solver_process.h"
+
+namespace stiction {
+namespace {
+
+// One static contact: A = diag(own), b.
+ContactProblem<double> OneContact(double mu, std::array<double, 2> own, std::array<double, 2> b) {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kStatic, mu, {}}};
+  problem.A = Eigen::Vector2d(own[0], own[1]).asDiagonal();
+  problem.b = Eigen::Vector2d(b[0], b[1]);
+  return problem;
+}
+
+// The condition that is missed by more than 1e-6; "" of what passes.
+std::string MissOf(const ContactProblem<double>& problem, SolverLaw law, double normal, double friction) {
+  return JudgeForces(problem, law, Rational(1, 1000000), Eigen::Vector2d(normal, friction)).miss;
+}
+
+constexpr SolverLaw kLawsWithFriction[] = {SolverLaw::kBox, SolverLaw::kFindex, SolverLaw::kPyramid,
+                                           SolverLaw::kCoulomb};
+
+}  // namespace
+
+TEST_CASE("under test: a contact that sticks passes by every law, and each condition has its name") {
+  const auto problem = OneContact(1, {2, 3}, {-1, 1});  // f = (1/2, -1/3)
+  for (const SolverLaw law : kLawsWithFriction) {
+    CAPTURE(static_cast<int>(law));
+    CHECK(MissOf(problem, law, 0.5, -1.0 / 3) == "");
+    CHECK(MissOf(problem, law, 0.5, -1.0 / 3 + 1e-9) == "");
+    CHECK(MissOf(problem, law, -0.5, -1.0 / 3) != "");
+    CHECK(MissOf(problem, law, 0.25, -0.125) == "moves-inward");
+    CHECK(MissOf(problem, law, 1, -1.0 / 3) == "presses-and-separates");
+    CHECK(MissOf(problem, law, 0.5, 1.0 / 3) == "friction-drives-slip");
+    CHECK(MissOf(problem, law, 0.5, -0.1) == "slips-below-limit");
+    CHECK(MissOf(problem, law, 0.5, -0.75) != "");
+  }
+  CHECK(MissOf(PosedFor(SolverLaw::kFrictionless, problem), SolverLaw::kFrictionless, 0.5, 0) == "");
+}
+
+TEST_CASE("under test: what is beyond the limit of friction is named so") {
+  const auto problem = OneContact(0.25, {2, 3}, {-1, 1});  // slips: f = (1/2, -1/8)
+  for (const SolverLaw law : kLawsWithFriction) {
+    CAPTURE(static_cast<int>(law));
+    CHECK(MissOf(problem, law, 0.5, -0.125) == "");
+    CHECK(MissOf(problem, law, 0.5, -1.0 / 3) == "friction-beyond-limit");
+  }
+}
+
+TEST_CASE("under test: laws part where the normal force is not that of the normals alone") {
+  ContactProblem<double> problem = OneContact(1, {2, 2}, {-2, 4});
+  problem.A(0, 1) = problem.A(1, 0) = 1;
+  // Coulomb: f = (2, -2), where friction presses the contact: a = (0, 2). Under findex, and with fixed bounds,
+  // the limit is that of fN = 1 alone: f = (1.5, -1).
+  CHECK(MissOf(problem, SolverLaw::kCoulomb, 2, -2) == "");
+  CHECK(MissOf(problem, SolverLaw::kPyramid, 2, -2) == "");
+  CHECK(MissOf(problem, SolverLaw::kFindex, 2, -2) == "friction-beyond-limit");
+  CHECK(MissOf(problem, SolverLaw::kBox, 2, -2) == "friction-beyond-limit");
+  CHECK(MissOf(problem, SolverLaw::kFindex, 1.5, -1) == "");
+  CHECK(MissOf(problem, SolverLaw::kBox, 1.5, -1) == "");
+  CHECK(MissOf(problem, SolverLaw::kCoulomb, 1.5, -1) == "slips-below-limit");
+  const auto judged = JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), Eigen::Vector2d(1.5, -1));
+  CHECK(judged.misses_coulomb);
+}
+
+TEST_CASE("under test: bounds of findex that are not unique leave an answer unjudged") {
+  ContactProblem<double> problem;
+  problem.contacts.assign(2, {ContactKind::kStatic, 1, {}});
+  problem.A = Eigen::MatrixXd::Zero(4, 4);
+  problem.A(0, 0) = problem.A(0, 2) = problem.A(2, 0) = problem.A(2, 2) = 1;
+  problem.A(1, 1) = problem.A(3, 3) = 1;
+  problem.b = Eigen::Vector4d(-1, 0, -1, 0);
+  const Eigen::Vector4d f(0.5, 0, 0.5, 0);
+  CHECK_FALSE(JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), f).is_known);
+  CHECK(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), f).miss == "");
+  const Eigen::Vector4d endless(std::numeric_limits<double>::quiet_NaN(), 0, 0, 0);
+  CHECK_FALSE(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), endless).error < 1);
+}
+
+TEST_CASE("under test: a solution is known of Coulomb's law in the plane") {
+  const ExactProblem problem = ExactOf(OneContact(1, {2, 3}, {-1, 1}));
+  const auto f = SolutionUnder(SolverLaw::kCoulomb, problem);
+  REQUIRE(f.has_value());
+  CHECK((*f)[0] == Rational(1, 2));
+  CHECK((*f)[1] == Rational(-1, 3));
+  CHECK_FALSE(SolutionUnder(SolverLaw::kBox, problem).has_value());
+}
+
+TEST_CASE("under test: a campaign names the solver, and is another with another one") {
+  Campaign campaign;
+  const CampaignIdentity without = IdentityOf(campaign);
+  campaign.solver = {"toy", "1", SolverLaw::kFindex, "1e-06"};
+  CHECK(CampaignOf(IdentityOf(campaign), "here") == campaign);
+  CHECK_FALSE(IdentityOf(campaign) == without);
+  Campaign other = campaign;
+  other.solver.version = "2";
+  CHECK_FALSE(IdentityOf(other) == IdentityOf(campaign));
+  other.objective = "steps";
+  CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("--solver or --objective"));
+  Campaign sliding = campaign;
+  sliding.generators = {GeneratorId::kSliding};
+  CHECK_THROWS_WITH(RequireConsistent(sliding), Catch::Contains("without sliding contacts"));
+}
+
+TEST_CASE("under test: statistics are read back as they were written, and add up") {
+  Record record;
+  UnderTestTally& tally = record.under_test[{"psd", 2, "1/2", 3, 1}];
+  tally.problems = 5;
+  tally.passed = 3;
+  tally.crash = 2;
+  tally.leak = 1;
+  CHECK(ParseRecord(Serialize(record)) == record);
+  Record twice = record;
+  twice.Merge(record);
+  CHECK(twice.under_test.begin()->second.passed == 6);
+  CHECK(Serialize(Record{}).find("under_test") == std::string::npos);
+}
+
+}  // namespace stiction
