@@ -49,8 +49,9 @@ class BulletLemkeContender : public Contender {
     constexpr unsigned kLoops = 1000;  // as many as btLemkeSolver takes
     btLemkeAlgorithm lemke(loaded_[k].A, loaded_[k].b);
     const btVectorXu solution = lemke.solve(kLoops);
-    f_ = Eigen::VectorXd::Zero(loaded_[k].b.size());
-    for (int i = 0; i < std::min<int>(solution.size(), static_cast<int>(f_.size())); ++i) f_[i] = solution[i];
+    const int rows = loaded_[k].b.size();
+    f_.resize(rows);
+    for (int i = 0; i < rows; ++i) f_[i] = solution[rows + i];  // after the accelerations
     return lemke.getInfo() == 0;
   }
   Eigen::VectorXd Forces() const override { return f_; }

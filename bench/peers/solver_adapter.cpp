@@ -3,7 +3,7 @@
 // (search/under_test/stiction_solver.h): compiled once for each, which CMakeLists.txt names.
 //
 //   ADAPTER_NAME, ADAPTER_VERSION, ADAPTER_LAW   as stiction_solver_describe says them
-//   ADAPTER_MAKE                                 the contender (contender.h)
+//   ADAPTER_MAKE, ADAPTER_ARGUMENTS              what makes the contender (contender.h)
 
 #include "bench/peers/contender.h"
 #include "search/under_test/stiction_solver.h"
@@ -33,7 +33,7 @@ constexpr stiction_solver_info kInfo = {STICTION_SOLVER_INTERFACE, ADAPTER_NAME,
 
 const stiction_solver_info* stiction_solver_describe() { return &kInfo; }
 
-void* stiction_solver_create() { return stiction::ADAPTER_MAKE.release(); }
+void* stiction_solver_create() { return stiction::ADAPTER_MAKE(ADAPTER_ARGUMENTS).release(); }
 
 int stiction_solver_solve(void* solver, const stiction_solver_problem* posed, double* forces) {
   auto& contender = *static_cast<stiction::Contender*>(solver);

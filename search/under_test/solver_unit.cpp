@@ -21,6 +21,7 @@
 namespace stiction {
 namespace {
 
+constexpr int kMostProcesses = 100;  // of a unit, which ends early where so many crashed or hung
 // Of a candidate to be simpler: a hang is tried many times, and what is left of it once more in full.
 constexpr double kSecondsOfCandidate = 0.1;
 constexpr std::int64_t kLeakSuspected = std::int64_t{1}
@@ -67,14 +68,16 @@ class SolverUnit {
         process_(process),
         surroundings_(SurroundingsOf(campaign)) {
     result_.problems = UnitProblems(campaign, task_);
+    warm_ = result_.problems / 4;
   }
 
   std::optional<UnitResult> Run(const std::function<bool()>& cancelled) {
     const double before = process_.Seconds();
     process_.Restart();
-    for (std::int64_t index = 0; index < result_.problems; ++index) {
+    const std::int64_t whole = result_.problems;
+    for (result_.problems = 0; result_.problems < whole && lost_ < kMostProcesses; ++result_.problems) {
       if (cancelled()) return std::nullopt;
-      Try(index);
+      Try(result_.problems);
     }
     if (grew_at_ >= 0 && last_memory_ - first_memory_ >= kLeakSuspected) TryLeak();
     result_.time = meter_.Read();
@@ -104,6 +107,7 @@ class SolverUnit {
     ++tally.problems;
     ++CounterOf(tally, examined.kind);
     tally.misses_coulomb += examined.misses_coulomb;
+    lost_ += examined.kind == "crash" || examined.kind == "hang";
     if (examined.Fails()) Find(index, examined, 0);
     WatchMemory(index);
   }
@@ -111,7 +115,7 @@ class SolverUnit {
   // From a quarter of the unit on; a new process begins anew.
   void WatchMemory(std::int64_t index) {
     const std::int64_t memory = process_.Memory();
-    if (index < result_.problems / 4 || memory == 0 || last_memory_ == 0) {
+    if (index < warm_ || memory == 0 || last_memory_ == 0) {
       first_memory_ = last_memory_ = memory;
     } else if (memory > last_memory_) {
       grew_at_ = index;
@@ -157,6 +161,8 @@ class SolverUnit {
   ContactProblem<double> problem_, posed_;
   Drawn drawn_;
   std::int64_t first_memory_ = 0, last_memory_ = 0, grew_at_ = -1;
+  std::int64_t warm_ = 0;  // problems after which memory should no longer grow
+  int lost_ = 0;           // processes
 };
 
 // ---- Finishing -------------------------------------------------------------------------------

@@ -34,9 +34,12 @@ class UnderTest(cli.TestCase):
                             "-o", library], check=True)
         return library
 
-    def search(self, solver, store, *options, contacts=(2, 3), problems=20000, generator="integers"):
-        return cli.run("search", "--solver", solver, "-g", generator, "-c", *contacts, "--store", self.folder / store,
-                       "--problems", problems, "--finishing", 100, *options)
+    def search(self, solver, store, *options, contacts=(2, 3), problems=20000, generator="integers", unit=10000):
+        campaign = self.folder / "campaign.json"
+        campaign.write_text(json.dumps({"format": "stiction-campaign", "version": 1, "generators": [generator],
+                                        "contacts": contacts, "unit_problems": unit}))
+        return cli.run("search", campaign, "--solver", solver, "--store", self.folder / store, "--problems", problems,
+                       "--finishing", 100, *options)
 
     def findings(self, store):
         with sqlite3.connect(self.folder / store) as db:
@@ -85,7 +88,7 @@ class UnderTest(cli.TestCase):
 
     def test_a_wrong_sign_at_a_tie_is_found_and_named_after_what_it_breaks(self):
         least = self.smallest(self.toy("BUG_TIE"), "silent-wrong")
-        self.assertIn("pulls", least["signature"])
+        self.assertIn(least["facts"]["minimized"]["what"], ("pulls", "moves-inward"))
         self.assertEqual(len(least["minimized"]["contacts"]), 2)
         self.assertIn("solution-exists", least["existence"])
 
@@ -101,7 +104,7 @@ class UnderTest(cli.TestCase):
         self.assertIn("crash-sigsegv", least["signature"])
 
     def test_a_hang_is_found_by_its_processor_time(self):
-        least = self.smallest(self.toy("BUG_HANG"), "hang", contacts=(3,), problems=3000)
+        least = self.smallest(self.toy("BUG_HANG"), "hang", contacts=(3,), problems=2000, unit=4000)
         self.assertEqual(len(least["minimized"]["contacts"]), 3)
 
     def test_a_leak_is_found(self):
@@ -121,9 +124,9 @@ class UnderTest(cli.TestCase):
 
     def test_threads_and_interruptions_do_not_matter(self):
         solver = self.toy("BUG_TIE", "BUG_CRASH")
-        for store, threads, sizes in (("one", 1, [20000]), ("two", 2, [20000]), ("resumed", 2, [1, 11000, 20000])):
+        for store, threads, sizes in (("one", 1, [10000]), ("two", 2, [10000]), ("resumed", 2, [1, 5000, 10000])):
             for problems in sizes:
-                done = self.search(solver, store, "--threads", threads, problems=problems)
+                done = self.search(solver, store, "--threads", threads, problems=problems, unit=1000)
                 self.assertEqual(done.code, 0, done.err)
         self.assertGreater(len(self.findings("one")), 1)
         self.assertSameContent(self.folder / "two", self.folder / "one")
@@ -141,7 +144,7 @@ class UnderTest(cli.TestCase):
     # ---- Programs ----
 
     def test_the_example_is_a_program_and_converges_slowly(self):
-        done = self.search(EXAMPLE, "python.store", "--json", contacts=(1, 2), problems=400)
+        done = self.search(EXAMPLE, "python.store", "--json", contacts=(1, 2), problems=300, unit=100)
         self.assertEqual(done.code, 0, done.err)
         told = done.json()
         self.assertEqual(told["solver"]["law"], "pyramid")
@@ -159,7 +162,7 @@ class UnderTest(cli.TestCase):
         for answer, signature in (("print('hm', flush=True)", "crash-garbled-1c"), ("sys.exit(3)", "crash-exit-3-1c"),
                                   ("print('{\"solved\": true, \"f\": [NaN, 0]}', flush=True)", "not-finite-1c")):
             name = signature + ".store"
-            done = self.search(self.program(greeting + answer + "\n"), name, contacts=(1,), problems=1)
+            done = self.search(self.program(greeting + answer + "\n"), name, contacts=(1,), problems=1, unit=1)
             self.assertEqual(done.code, 0, done.err)
             self.assertEqual([finding["signature"] for finding in self.findings(name)], [signature])
 
