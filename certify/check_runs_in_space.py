@@ -729,7 +729,7 @@ def same_state_again(run, earlier):
 
 
 def check_states(run, witness):
-    """The sets decide the state, and stand again."""
+    """The sets decide the state, and recur."""
     need(not run.memory(), "$.witness.start", witness["start"], "a state that remembers nothing but its sets")
     earlier = run.copy()
     run.standing([], [], run.on_step)  # whose matrix is regular

@@ -98,7 +98,7 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
   if (result.contains("period"))
-    return fmt::format("{}: {}the state after {} drives stands again {} drives later{}", outcome,
+    return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
                        proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),
                        proved ? ", for ever" : "");
   if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;

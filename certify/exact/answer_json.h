@@ -44,10 +44,10 @@ Json EndToJson(const End& end) {
 
 // Why a cycle over rounded numbers in space is no proof.
 inline constexpr std::string_view kNoProof =
-    "a state stands again after rounding: forces are irrational, and this is no proof";
+    "a state recurs after rounding: forces are irrational, and this is no proof";
 // Why one over intervals is.
 inline constexpr std::string_view kProofOfSets =
-    "proved: the sets of a state that remembers nothing stand again, and decide its forces";
+    "proved: the sets of a state that remembers nothing recur, and decide its forces";
 
 Json CountersToJson(const std::vector<Counter>& counters);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proofs that a run of the published algorithm in space never ends.
 //
-// States   The sets of a state that remembers nothing else stand again (solver/published/readings.md, 8).
+// States   The sets of a state that remembers nothing else recur (solver/published/readings.md, 8).
 // Boxes    What a state remembers beyond its sets are resting forces and recorded directions, a few coordinates
 // x:
 //          a force, or the tangent of half the angle of a direction. From all of a box around c the run takes

@@ -3,11 +3,11 @@
 //
 // Intervals   every sign that a step depends on is proved, or the run ends `undecided`. So `solved`, `ray`,
 //             `singular` and `cycle` are statements about the algorithm in exact arithmetic. Forces are
-//             irrational, but not those of a state that remembers nothing: no contact in NCF, no resting force, the
-//             matrix of C and CF regular. There they are a rational function of the sets, so the sets of such a
-//             state that stand again prove the loop, if all systems in between are regular. Where that shows
-//             nothing, loops_in_space.h looks with more bits, and for a box that the run never leaves; what it does
-//             not decide either ends `undecided`.
+//             irrational, but not those of a state that remembers nothing: no contact in NCF, no resting force,
+//             the matrix of C and CF regular. There they are a rational function of the sets, so the sets of
+//             such a state that recur prove the loop, if all systems in between are regular. Where that shows
+//             nothing, loops_in_space.h looks with more bits, and for a box that the run never leaves; what it
+//             does not decide either ends `undecided`.
 // Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
 //             numbers are rounded or enclosed. Runs are told in the terms of the whole problem, as those of
 //             exact.h: bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.

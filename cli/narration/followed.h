@@ -25,11 +25,11 @@ struct PathOptions {
 Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
                   const Telling& how);
 
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+// "cycle: the state after 3 drives recurs 4 drives later, for ever"
 template <class End>
 std::string EndText(const End& end, bool proved) {
   if (proved || end.outcome != Outcome::kCycle) return Describe(end);
-  return fmt::format("cycle: after rounding, the state after {} drives stands again {} drives later", end.start,
+  return fmt::format("cycle: after rounding, the state after {} drives recurs {} drives later", end.start,
                      end.period);
 }
 

@@ -104,12 +104,12 @@ class BaraffNarrator {
     return steps < answer_.pivots.size() && !BeginsDrive(steps) ? drive - 1 : drive;
   }
 
-  // A line where the state that recurs stands first, and one where it stands again.
+  // A line where the state that recurs stands first, and one where it does so again.
   std::string MarkAfter(std::size_t steps) const {
     if (!IsLoop(answer_.outcome)) return "";
     const std::int64_t ended = Ended(steps);
     if (steps > 0 && ended == Ended(steps - 1)) return "";
-    if (ended == answer_.start) return "---- this state will stand again ----\n";
+    if (ended == answer_.start) return "---- this state will recur ----\n";
     if (ended == answer_.start + answer_.period)
       return kIsExact<Scalar> ? "---- the same state again: what came since is repeated for ever ----\n"
                               : "---- the same state again, after rounding ----\n";

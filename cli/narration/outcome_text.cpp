@@ -21,8 +21,8 @@ std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0)
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period) {
   const char* unit = outcome == Outcome::kCycle ? "drives" : "steps";
   if (IsLoop(outcome)) {
-    return fmt::format("{}: the state after {} {} stands again {} {} later, for ever", Name(outcome), start,
-                       unit, period, unit);
+    return fmt::format("{}: the state after {} {} recurs {} {} later, for ever", Name(outcome), start, unit,
+                       period, unit);
   }
   if (outcome == Outcome::kLimit) return fmt::format("limit: out of {}", reason);
   const std::string name(Name(outcome));

@@ -19,7 +19,7 @@ enum class FractionText { kFull, kShort };
 std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
 std::string Text(double x, FractionText = FractionText::kFull);  // six digits
 
-// "cycle: the state after 3 drives stands again 4 drives later, for ever"
+// "cycle: the state after 3 drives recurs 4 drives later, for ever"
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period);
 template <class End>
 std::string Describe(const End& end) {

@@ -30,7 +30,7 @@ struct Counts {
   void Add(const Stratum& stratum);
 
   std::int64_t Of(Outcome outcome) const { return exact[static_cast<int>(outcome)]; }
-  // A state stands again in exact arithmetic, in space by intervals. One definition: cycles and stalls.
+  // A state recurs in exact arithmetic, in space by intervals. One definition: cycles and stalls.
   std::int64_t Loops() const { return Of(Outcome::kCycle) + Of(Outcome::kStall); }
 };
 

@@ -125,7 +125,7 @@ class Pivot(_Forces):
 
 @dataclass(frozen=True, repr=False)
 class Replay:
-    """A run: of a loop, the state after `start` drives stands again `period` drives later."""
+    """A run: of a loop, the state after `start` drives recurs `period` drives later."""
 
     outcome: str
     start: int

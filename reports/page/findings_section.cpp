@@ -114,14 +114,14 @@ std::string GridText(const GridOutcomes& grid) {
   return text;
 }
 
-// "The state after 3 drives stands again 4 drives later (17 steps in all)."
+// "The state after 3 drives recurs 4 drives later (17 steps in all)."
 std::string RunText(const RunFacts& run, const Finding& finding) {
   const std::string steps = Counted(run.steps, "step");
   const bool cycle = finding.exact_outcome == Name(Outcome::kCycle);
   const bool stall = finding.exact_outcome == Name(Outcome::kStall);
   if (!cycle && !stall) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
   const std::string unit = cycle ? "drive" : "step";
-  return fmt::format("Under {}: the state after {} stands again {} later, and so on for ever ({} in all).",
+  return fmt::format("Under {}: the state after {} recurs {} later, and so on for ever ({} in all).",
                      finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
 }
 

@@ -346,7 +346,7 @@ Table FailuresTable(const Record& record, const By& by) {
       Keyed("failures",
             "Failures confirmed exactly, with intervals, per generator, number of contacts and policy", by,
             {{"runs"},
-             {"loops", "a state stands again (cycle or stall) " + hint},
+             {"loops", "a state recurs (cycle or stall) " + hint},
              {"singular", hint},
              {"ray", hint},
              {"audited", "run again exactly without a suspicion, as a sample"},

@@ -91,7 +91,7 @@ std::string LoopsText(const StoreTotals& t) {
   }
   std::string text =
       Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
-                            "run stands again, in exact "
+                            "run recurs, in exact "
                             "arithmetic or, in space, by intervals: so it never ends.",
                             PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
   const std::string grid =
@@ -200,7 +200,7 @@ std::string FindingText(const Finding& finding) {
   std::string text = Counted(number("contacts"), "contact");
   if (IsLoopKind(finding.kind)) {
     const std::string unit = finding.exact_outcome == Name(Outcome::kStall) ? "step" : "drive";
-    text += fmt::format(", the state after {} stands again {} later", Counted(number("start"), unit),
+    text += fmt::format(", the state after {} recurs {} later", Counted(number("start"), unit),
                         Counted(number("period"), unit));
   } else {
     text += ", " + InWords(finding.kind);

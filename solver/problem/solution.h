@@ -28,7 +28,7 @@ inline constexpr std::string_view Name(Outcome outcome) {
   return outcome == Outcome::kNoSolution ? "no-solution" : kOutcomeNames[static_cast<int>(outcome)];
 }
 
-// Endless: a state stands again, with `start` and `period`. (No run has stalled: readings.md, 6.)
+// Endless: a state recurs, with `start` and `period`. (No run has stalled: readings.md, 6.)
 inline constexpr bool IsLoop(Outcome outcome) {
   return outcome == Outcome::kCycle || outcome == Outcome::kStall;
 }

@@ -13,9 +13,9 @@
 //             the circle (23), met by a quadratic step, and the direction.
 // Shared      scan order and give-up rule (scan.h), force direction, scales. The loop and the step are this
 //             class's own: a contact's friction has two components, and square roots leave no exact scalar.
-// Loops       Over floating-point scalars `cycle` says that a state stands again after rounding. Forces are
+// Loops       Over floating-point scalars `cycle` says that a state recurs after rounding. Forces are
 //             irrational, but there are states whose sets alone decide them (`Memoryless`): over intervals
-//             `cycle` says that the sets of such a state stand again, a proof; rounded states that stand again
+//             `cycle` says that the sets of such a state recur, a proof; rounded states that recur
 //             twice end the run `undecided`, and certify/exact/loops_in_space.h looks further. A stall cannot
 //             happen (readings.md, 8); a drive that does not end would spend its budget.
 // Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C

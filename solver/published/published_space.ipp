@@ -735,7 +735,7 @@ bool PublishedInSpace<Scalar>::OuterStateRecurs() {
     ++alike;
   }
   if (alike == 2) {  // a period without a state that proves it has passed
-    End(Outcome::kUndecided, "a state stands again as far as rounding shows");
+    End(Outcome::kUndecided, "a state recurs as far as rounding shows");
     return true;
   }
   verdict_.start = verdict_.period = 0;

@@ -26,7 +26,7 @@ ExactProblem TwoContacts(const Rows& A, const int (&b)[6]) {
   return problem;
 }
 
-// Its sets stand again under both slips: corpus/space/cycle-under-both-slips.json.
+// Its sets recur under both slips: corpus/space/cycle-under-both-slips.json.
 ExactProblem OfStates() {
   return TwoContacts({{3, 0, 0, 0, 0, 1},
                       {0, 3, 1, 0, 1, -1},

@@ -131,7 +131,7 @@ class OpenRun(Run):
 
     def is_open(self):
         """Whether it loops, and the sets of a state of the period decide its forces: they do so after a small change,
-        and the state stands again when the sets do."""
+        and the state recurs when the sets do."""
         found = self.compute_forces()
         return found.outcome == "cycle" and any(
             not any(force for force, where in zip(f, sets) if where in ("none", "NC", "suspended"))

@@ -92,7 +92,7 @@ class Solve(cli.TestCase):
         file = self.file("p.json", cli.REFERENCE)
         result = self.succeeds("solve", file, "--json", "--method", "baraff", code=1).json()
         self.assertEqual((result["outcome"], result["start"], result["period"]), ("cycle", 3, 4))
-        self.assertEqual(self.succeeds("solve", file, "--method", "baraff", code=1).out.splitlines()[0], "cycle: the state after 3 drives stands again 4 drives later, for ever")
+        self.assertEqual(self.succeeds("solve", file, "--method", "baraff", code=1).out.splitlines()[0], "cycle: the state after 3 drives recurs 4 drives later, for ever")
 
     def test_no_contacts_at_all_are_solved(self):
         file = self.file("p.json", changed(cli.SOLVED, contacts=[], A=[], b=[]))
@@ -273,7 +273,7 @@ class Replay(cli.TestCase):
         file = self.file("p.json", cli.REFERENCE)
         lines = self.succeeds("replay", file, code=1).out.splitlines()
         self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper, exact")
-        self.assertEqual(lines[-1], "cycle: the state after 3 drives stands again 4 drives later, for ever")
+        self.assertEqual(lines[-1], "cycle: the state after 3 drives recurs 4 drives later, for ever")
         first, again = [k for k, line in enumerate(lines) if line.startswith("----")]
         self.assertEqual([line.split()[4] for line in lines[first + 1:again]], cli.PERIOD)
         self.assertEqual(again, len(lines) - 2)

@@ -128,7 +128,7 @@ class Solve(cli.TestCase):
         self.assertIn("proved", proved["evidence"])
         open_still = self.solve(CYCLE, "--policy", "slip=redirect", code=3)
         self.assertEqual(open_still["outcome"], "undecided")
-        self.assertIn("stands again", open_still["reason"])
+        self.assertIn("recurs", open_still["reason"])
         suspected = self.solve(CYCLE, "--arithmetic", "double", code=1)
         self.assertEqual((suspected["start"], suspected["period"]), (7, 6))
         self.assertIn("no proof", suspected["evidence"])
@@ -144,7 +144,7 @@ class Solve(cli.TestCase):
 
     def test_a_replay_says_what_intervals_prove(self):
         out = self.succeeds("replay", CYCLE).out.splitlines()
-        self.assertEqual(out[-1], "over intervals, proved: cycle: the state after 7 drives stands again 6 drives later, for ever")
+        self.assertEqual(out[-1], "over intervals, proved: cycle: the state after 7 drives recurs 6 drives later, for ever")
         out = self.succeeds("replay", CYCLE, "--policy", "slip=redirect").out.splitlines()
         self.assertTrue(out[-1].startswith("over intervals, which do not decide it: undecided"), out[-1])
         told = self.succeeds("replay", RAY, "--json").json()

@@ -101,7 +101,7 @@ test('the keys alone go round the loop, and back', async () => {
     assert.equal(await heading(page), 'Before the first step');
     await press(page, 'End');
     assert.equal(await heading(page), `Step ${last} of ${last}`);
-    assert.match(await page.textContent('section.run-0 p.recurs'), /stands again, \d+ steps later/);
+    assert.match(await page.textContent('section.run-0 p.recurs'), /recurs, \d+ steps later/);
     await press(page, 'ArrowRight');
     assert.equal(await heading(page), `Step 3 of ${last}, round 2 of the loop`);
     await assertShows(page, 0, 'force', replay.pivots[2].f);
@@ -109,7 +109,7 @@ test('the keys alone go round the loop, and back', async () => {
     assert.equal(await heading(page), `Step 3 of ${last}, round 3 of the loop`);
     for (let k = 0; k < 2 * (last - 2) + 1; ++k) await press(page, 'ArrowLeft');
     assert.equal(await heading(page), `Step 2 of ${last}`);
-    assert.match(await page.textContent('section.run-0 p.recurs'), /This state stands again after step 16/);
+    assert.match(await page.textContent('section.run-0 p.recurs'), /This state recurs after step 16/);
     await press(page, 'Home');
     assert.equal(await heading(page), 'Before the first step');
     await press(page, 'Tab');  // to what may not go back: First and Back are switched off
@@ -172,7 +172,7 @@ test('what recurs is marked where it first stands and where it returns', async (
     const marked = await page.$$eval(
         'section.run-0 .timeline .recurs', all => all.map(button => button.getAttribute('aria-label')));
     assert.equal(marked.length, 2);
-    assert.match(marked[0], /^step 2, .*the state that stands again$/);
+    assert.match(marked[0], /^step 2, .*the state that recurs$/);
     assert.match(marked[1], /^step 16, .*the state of step 2 again$/);
   });
 });

@@ -129,7 +129,7 @@ MEASUREMENTS = [
     Measurement("space", "long", bench.space, "The policies of section 5.6 side by side, in space."),
     Measurement("space-loops", "minutes", bench.space_loops,
                 "Loops of the published algorithm in space on random problems: suspected by doubles, proved by sets that "
-                "stand again or by boxes, open; every proof accepted by the independent checker."),
+                "recur or by boxes, open; every proof accepted by the independent checker."),
     Measurement("patches", "long", bench.patches,
                 "Failures in a million problems of ways to change what the published algorithm gives up, by "
                 "generator and contacts; solver/published/mending.md explains the columns."),

@@ -731,7 +731,7 @@ TEST_CASE("report: the page says what the store holds, with separated thousands"
   CHECK(Has(page, "solved 36, cycle 1,500"));
   CHECK(Has(page, "stiction replay findings/" + kDone + ".json --step"));
   CHECK(Has(page, "stiction check findings/" + kDone + ".certificate.json"));
-  CHECK(Has(page, "the state after 5 drives stands again 6 drives later"));
+  CHECK(Has(page, "the state after 5 drives recurs 6 drives later"));
 }
 
 TEST_CASE("report: the table of work names the machines that searched, and nothing else does") {

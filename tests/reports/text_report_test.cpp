@@ -141,7 +141,7 @@ TEST_CASE("text: the simplest loop stands in numbers, with commands that replay 
   const std::string text = TextReport(StoreOf(scratch / "s.store"), "a store's", KnownNone);
   CHECK_THAT(text, Contains("The simplest loop: cycle-2c-4d-10s-00"));
   CHECK_THAT(Flowing(text),
-             Contains("the state after 3 drives stands again 1 drive later; policies: 36 cycle, 1500 solved"));
+             Contains("the state after 3 drives recurs 1 drive later; policies: 36 cycle, 1500 solved"));
   CHECK_THAT(Flowing(text), Contains("19 -3/23 -1 -3/23 1 29 mu = 5/17"));
   CHECK_THAT(text, Contains("    stiction report 'a store'\\''s' -o report\n"));
   CHECK_THAT(text, Contains("    stiction replay report/findings/cycle-2c-4d-10s-00.json --step\n"));

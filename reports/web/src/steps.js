@@ -53,13 +53,13 @@ function recurrence(run, state, link) {
   const at = k => k === 0 ? 'the start' : `step ${k}`;
   if (state === from)
     return element(
-        'p', {class: 'recurs'}, 'This state stands again after ', link(to, `step ${to}`),
+        'p', {class: 'recurs'}, 'This state recurs after ', link(to, `step ${to}`),
         run.loop.exact ? ': same sets, same forces. From here on nothing new happens.' :
                          ', as far as rounded numbers tell: same sets, forces alike. That is no proof.');
   if (state !== to) return null;
   return element(
       'p', {class: 'recurs'}, 'Here the state of ', link(from, at(from)),
-      ` stands again, ${plural(to - from, 'step')} later${run.loop.exact ? '' : ', but for rounding'}: `,
+      ` recurs, ${plural(to - from, 'step')} later${run.loop.exact ? '' : ', but for rounding'}: `,
       'the loop closes. Forward goes round it.');
 }
 

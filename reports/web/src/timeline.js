@@ -9,7 +9,7 @@ function labelOf(run, state) {
   const words = [`step ${state}`, run.told[state - 1].label];
   if (run.isZeroStep(state)) words.push('length zero');
   if (run.mark(state) !== '') words.push(run.mark(state));
-  if (run.isLoop && state === run.loop.from) words.push('the state that stands again');
+  if (run.isLoop && state === run.loop.from) words.push('the state that recurs');
   if (run.isLoop && state === run.loop.to) words.push(`the state of step ${run.loop.from} again`);
   return words.join(', ');
 }
