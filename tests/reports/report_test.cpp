@@ -960,6 +960,7 @@ TEST_CASE("report: findings of interest come first") {
                       {},
                       {},
                       {},
+                      {},
                       {}};
   const std::vector<Finding> findings = {large, often, other, rare, small, whole};
   const auto discoveries = Discoveries(record, findings);
