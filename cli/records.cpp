@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "certify/claims/claims.h"
 #include "cli/command_line.h"
 #include "cli/shared.h"
 #include "cli/version.h"
@@ -45,7 +44,6 @@ int Add(const RecordsVerb& o) {
     throw InputError(
         "records: --add asks for --frontier, --what, --objective, --command, --seconds and --random-command");
   const ProblemFile added = ReadProblem(o.add);
-  RequirePlanar(added.problem, o.add);
   FrontierRecord record = MakeRecord(*FindObjective(o.objective), added, o.limits);
   record.frontier = o.frontier;
   record.what = o.what;

@@ -97,6 +97,9 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
   if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
+  if (result.contains("period") && !reason.empty())
+    return fmt::format("{}: from the state after {} drives on {}, the same steps every {} drives, for ever",
+                       outcome, result["start"].dump(), reason.substr(2), result["period"].dump());
   if (result.contains("period"))
     return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
                        proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),

@@ -38,7 +38,9 @@ template <class Scalar>
 Json AnswerToJson(const Answer<Scalar>& answer, int dimension) {
   Json json = EndToJson(answer);
   if (answer.outcome == Outcome::kCycle && dimension == 3)
-    json["evidence"] = answer.arithmetic == Arithmetic::kInterval ? kProofOfSets : kNoProof;
+    json["evidence"] = answer.arithmetic != Arithmetic::kInterval ? kNoProof
+                       : answer.reason.empty()                    ? kProofOfSets
+                                                                  : kProofOfBox;
   json["method"] = answer.method;
   json["arithmetic"] = Name(answer.arithmetic);
   if (dimension == 3) json["law"] = Name(answer.law);

@@ -80,7 +80,7 @@ InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOp
   if (end.outcome == Outcome::kUndecided && !options.limits.Stopped()) {
     if (const auto loop = ProveLoopInSpace(remainder.exact(), options.policy, options.limits)) {
       answer.outcome = Outcome::kCycle;
-      answer.reason = {};
+      answer.reason = loop->IsBox() ? kStaysInBox : "";
       answer.start = loop->start;
       answer.period = loop->period;
     }

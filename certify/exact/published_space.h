@@ -5,9 +5,9 @@
 //             `singular` and `cycle` are statements about the algorithm in exact arithmetic. Forces are
 //             irrational, but not those of a state that remembers nothing: no contact in NCF, no resting force,
 //             the matrix of C and CF regular. There they are a rational function of the sets, so the sets of
-//             such a state that recur prove the loop, if all systems in between are regular. Where that shows
-//             nothing, loops_in_space.h looks with more bits, and for a box that the run never leaves; what it
-//             does not decide either ends `undecided`.
+//             such a state that stand again prove the loop, if all systems in between are regular. Where that
+//             shows nothing, loops_in_space.h looks with more bits, and for a box that the run never leaves;
+//             what it does not decide either ends `undecided`.
 // Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
 //             numbers are rounded or enclosed. Runs are told in the terms of the whole problem, as those of
 //             exact.h: bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
@@ -15,6 +15,7 @@
 #ifndef STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
 #define STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
 
+#include <string_view>
 #include <vector>
 
 #include "certify/exact/solve.h"
@@ -22,10 +23,14 @@
 
 namespace stiction {
 
+inline constexpr std::string_view kStaysInBox = "it never leaves a box";
+
 // Requires dimension 3 and PublishedReadsInSpace(options.policy).
 //
 // Double ends around the problem's numbers; f, a and ray are the midpoints, which nobody has judged. Of the
 // tolerances loop_grain alone is read.
+//
+// `cycle` with kStaysInBox for its reason: the run never ends, though no state need ever repeat.
 InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
 
 }  // namespace stiction

@@ -20,6 +20,10 @@ std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0)
 
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period) {
   const char* unit = outcome == Outcome::kCycle ? "drives" : "steps";
+  if (IsLoop(outcome) && !reason.empty()) {
+    return fmt::format("{}: from the state after {} {} on {}, the same steps every {} {}, for ever",
+                       Name(outcome), start, unit, reason, period, unit);
+  }
   if (IsLoop(outcome)) {
     return fmt::format("{}: the state after {} {} recurs {} {} later, for ever", Name(outcome), start, unit,
                        period, unit);

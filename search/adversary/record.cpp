@@ -54,21 +54,52 @@ std::optional<std::pair<Rational, Rational>> EigenvalueBounds(const ExactProblem
   return std::nullopt;
 }
 
+Rational LargestFriction(const ExactProblem& problem) {
+  Rational mu = 0;
+  for (const auto& contact : problem.contacts) mu = std::max(mu, contact.mu);
+  return mu;
+}
+
 // The value, exactly: of an objective whose double is exact, or of the friction of a loop.
 Rational ShownValue(const Objective& objective, ExactTrial& trial) {
   const auto value = objective.exact(trial);
   if (!value)
     throw InputError(fmt::format("record: the problem has no value for objective {}", objective.name));
-  if (objective.lowers_friction) {
-    Rational mu = 0;
-    for (const auto& contact : trial.problem().contacts) mu = std::max(mu, contact.mu);
-    return mu;
-  }
+  if (objective.lowers_friction) return LargestFriction(trial.problem());
   const double shown = objective.sign * *value;
   const bool is_exact = objective.name == "radius" || std::floor(shown) == shown;
   if (!is_exact)
     throw InputError(fmt::format("record: objective {} has values that doubles round", objective.name));
   return shown;
+}
+
+// In space the friction of a loop is a value, under either slip.
+bool IsInSpace(const ProblemFile& problem) { return problem.problem.dimension == 3; }
+
+FrontierRecord RecordInSpace(FrontierRecord record, const Limits& limits) {
+  if (!record.objective->lowers_friction)
+    throw InputError("record: of problems in space the friction of a loop is recorded, objective friction");
+  Policy redirect;
+  redirect.slip = Slip::kRedirect;
+  record.certificate = CycleCertificate(record.problem.problem, {Policy{}, redirect}, limits);
+  if (record.certificate.is_null()) throw InputError("record: found no proof that the problem loops in space");
+  record.value = LargestFriction(record.problem.problem);
+  return record;
+}
+
+std::string FaultOfCertificate(const FrontierRecord& record, const std::string& claim) {
+  const CheckReport report =
+      CheckCertificate(record.certificate, record.frontier, ProblemDigest(record.problem.problem));
+  if (!report.accepted) return "its certificate is refused: " + report.reason;
+  if (report.claim != claim) return fmt::format("its certificate claims {}, expected {}", report.claim, claim);
+  return "";
+}
+
+std::string FaultInSpace(const FrontierRecord& record) {
+  const Rational value = LargestFriction(record.problem.problem);
+  if (!record.objective->lowers_friction || value != record.value)
+    return fmt::format("its value is {}, that of its problem {}", ToString(record.value), ToString(value));
+  return FaultOfCertificate(record, "cycle");
 }
 
 }  // namespace
@@ -77,6 +108,7 @@ FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem
   FrontierRecord record;
   record.objective = &objective;
   record.problem = problem;
+  if (IsInSpace(problem)) return RecordInSpace(std::move(record), limits);
   ExactTrial trial(problem.problem, {}, limits);
   if (OfCondition(objective)) {
     record.bounds = EigenvalueBounds(problem.problem);
@@ -95,6 +127,7 @@ FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem
 }
 
 std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
+  if (IsInSpace(record.problem)) return FaultInSpace(record);
   ExactTrial trial(record.problem.problem, {}, limits);
   const Objective& objective = *record.objective;
   if (objective.of_loops && !trial.Loops()) return "its problem does not loop under the policy paper";
@@ -108,12 +141,7 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
     if (value != record.value)
       return fmt::format("its value is {}, that of its problem {}", ToString(record.value), ToString(value));
   }
-  const CheckReport report =
-      CheckCertificate(record.certificate, record.frontier, ProblemDigest(record.problem.problem));
-  if (!report.accepted) return "its certificate is refused: " + report.reason;
-  const std::string claim = trial.Loops() ? "cycle" : "solution-exists";
-  if (report.claim != claim) return fmt::format("its certificate claims {}, expected {}", report.claim, claim);
-  return "";
+  return FaultOfCertificate(record, trial.Loops() ? "cycle" : "solution-exists");
 } catch (const InputError& error) {
   return error.what();
 }

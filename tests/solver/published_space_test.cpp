@@ -195,7 +195,7 @@ InexactAnswer SolveInDoubles(const ExactProblem& problem, const PublishedOptions
   return std::get<InexactAnswer>(SolveIn(problem, request).answer);
 }
 
-TEST_CASE("space: both readings loop on a definite problem: a suspicion, over intervals proved of one") {
+TEST_CASE("space: both readings loop on a definite problem: a suspicion, over intervals proved") {
   const ExactProblem problem = InSpace({3, 3},
                                        {{3, 0, 0, 0, 0, 1},
                                         {0, 3, 1, 0, 1, -1},
@@ -213,7 +213,7 @@ TEST_CASE("space: both readings loop on a definite problem: a suspicion, over in
     CHECK(again.start == verdict.start);
     CHECK(again.period == verdict.period);
     const InexactAnswer proved = RunIntervalsInSpace(problem, Reading(slip));
-    CHECK(proved.outcome == (slip == Slip::kLiteral ? Outcome::kCycle : Outcome::kUndecided));
+    CHECK(proved.outcome == Outcome::kCycle);
     CHECK(proved.period == verdict.period);
   }
 }
@@ -327,7 +327,7 @@ TEST_CASE("space: what loops in the plane loops in space") {
   for (const CyclingSeed& seed : CyclingSeeds()) CheckAsInThePlane(Cycling(seed), RandomReading(choices));
 }
 
-TEST_CASE("space: loops of the plane are proved there, where a state remembers nothing") {
+TEST_CASE("space: loops of the plane are proved there, where no sign is a tie") {
   int proved = 0;
   for (const CyclingSeed& seed : CyclingSeeds()) {
     const ExactProblem planar = Cycling(seed);
@@ -377,6 +377,7 @@ TEST_CASE("space: solved means (15), (21), (22), over doubles and over intervals
     if (enclosed.outcome == Outcome::kUndecided) continue;
     ++proved;
     CHECK(enclosed.outcome == ended.verdict.outcome);
+    if (enclosed.outcome == Outcome::kCycle) continue;  // perhaps proved by another run, with more bits
     CHECK(enclosed.counters == CountersOf(ended.verdict.statistics));
     for (int i = 0; i < problem.rows(); ++i) {
       CHECK(enclosed.f_enclosed[i].low <= enclosed.f_enclosed[i].high);
@@ -531,7 +532,7 @@ TEST_CASE("space: the recorded direction is that of the friction force in NCF") 
   CHECK(recorded > 0);
 }
 
-TEST_CASE("space: of loops that doubles suspect intervals prove some, and deny none") {
+TEST_CASE("space: of loops that doubles suspect intervals prove most, and deny none") {
   int suspected = 0, proved = 0;
   for (int k = 0; k < 4000; ++k) {
     const ExactProblem problem = RandomInSpace(2 + k % 2, 5 * (k / 2) + 2 + k % 3);  // mu 1, 2, 5
@@ -545,12 +546,10 @@ TEST_CASE("space: of loops that doubles suspect intervals prove some, and deny n
       if (verdict.outcome != Outcome::kCycle) continue;
       ++proved;
       CHECK(verdict.period == ended.verdict.period);
-      CHECK(verdict.start >= ended.verdict.start);
     }
   }
   CHECK(suspected >= 30);
-  CHECK(proved >= 5);
-  CHECK(proved < suspected);
+  CHECK(proved >= 4 * suspected / 5);
 }
 
 TEST_CASE("space: a sliding contact has friction against its slip, and can have an infinite step") {
