@@ -3,14 +3,15 @@
 
     A = J J', b = J w    J 3n x (3n + 1), entries of J and w uniform integers in [-1000, 1000]
 
-mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn. Doubles suspect a loop where a rounded state recurs. `certify
---claim cycle` proves it: the sets of a state that remembers nothing else recur (`states`), or the run never
-leaves a box of what it remembers (`box`). Every certificate is shown to the independent checker, certify/check_runs.py;
-`refused`: those that it does not accept. Exit code 1 if there are any."""
+mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn. Doubles suspect a loop where a rounded state stands again. `certify
+--claim cycle` proves it: the sets of a state that remembers nothing else stand again (`states`), or the run never
+leaves a box of what it remembers (`box`); `lowest mu`: of those that are proved. Every certificate is shown to the
+independent checker, certify/check_runs.py. `refused`: those that it does not accept. Exit code 1 if there are any."""
 
 import collections
 import json
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ from check_runs import CLAIMS  # noqa: E402
 
 POLICIES = {"literal": "paper", "redirect": "slip=redirect"}
 MU = ("1/5", "1/2", "1", "2", "5")
+FRICTION = [Fraction(mu) for mu in MU]
 
 
 def draw(contacts, seed, index):
@@ -42,8 +44,8 @@ def accepted(text):
         return False
 
 
-def prove(problem, policy, count, file):
-    """What becomes of a suspicion."""
+def prove(problem, mu, policy, count, file):
+    """What becomes of a suspicion, at friction mu."""
     count["suspected"] += 1
     proof = stiction.certify(problem, "cycle", policy)
     if proof is None:
@@ -54,6 +56,7 @@ def prove(problem, policy, count, file):
         count["refused"] += 1
         return
     count[witness["kind"]] += 1
+    count["lowest mu"] = min(count["lowest mu"] or max(FRICTION), mu)
     count["coordinates"] = max(count["coordinates"], len(witness.get("radii", ())))
     if file:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -68,10 +71,11 @@ def row_of(contacts, slip, seeds, problems, folder):
             ends = stiction.solve_all(drawn, "baraff", "double", POLICIES[slip])["outcome"]
             for index in np.flatnonzero(ends == "cycle"):
                 name = f"{contacts}-{slip}-{seed}-{first + index}.json"
-                prove(drawn[index], POLICIES[slip], count, folder and Path(folder, name))
+                prove(drawn[index], FRICTION[(first + index) % len(MU)], POLICIES[slip], count, folder and Path(folder, name))
     proved = count["states"] + count["box"]
     return (contacts, slip, len(seeds) * problems, *(count[name] for name in ("suspected", "states", "box")),
-            study.share(proved, count["suspected"]), *(count[name] for name in ("open", "refused", "coordinates")))
+            study.share(proved, count["suspected"]), *(count[name] for name in ("open", "refused", "coordinates")),
+            str(count["lowest mu"]) if proved else "-")
 
 
 def main():
@@ -79,8 +83,8 @@ def main():
                       certificates="")
     rows = [row_of(contacts, slip, o.seeds, o.problems, o.certificates) for contacts in o.contacts for slip in o.slip]
     study.show(["contacts", "`slip`", "problems", "suspected", "by states", "by boxes", "proved, 95 %", "open",
-                "refused", "most coordinates"], rows)
-    sys.exit(any(row[-2] for row in rows))
+                "refused", "most coordinates", "lowest mu"], rows)
+    sys.exit(any(row[-3] for row in rows))
 
 
 study.run(main)

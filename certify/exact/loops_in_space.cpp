@@ -263,7 +263,7 @@ Rational OfPlaces(const Rational& x, int places) {
 // What was tried: beyond these nothing is sought.
 constexpr int kStatesTried = 4;
 constexpr int kNewtonSteps = 60;
-constexpr int kPlaces[] = {10, 16, 24, 34, 48, 70, 100, 140};
+constexpr int kPlacesOfRadii[] = {10, 16, 24, 34, 48, 70, 100, 140};
 constexpr int kMoreBitsOfCentre = 20;
 constexpr int kMarginOfBits = 64;  // between what finds a proof and what it states
 constexpr int kSizesOfMargin =
@@ -417,7 +417,7 @@ class LoopSearch {
     }
     std::optional<LoopInSpace> found;
     int smaller = 0;
-    for (const int places : kPlaces) {
+    for (const int places : kPlacesOfRadii) {
       if (2 * places > effort_.bits || smaller > kSizesOfMargin) break;
       smaller += found.has_value();
       try {
