@@ -35,7 +35,8 @@ Json HypothesisCertificate(const ExactProblem& problem);
 // `exists`: A is semidefinite and (H) holds, so there is a solution (existence.md, theorem 1); null if either
 // is not shown. InputError for an asymmetric A and for sliding contacts, of which the theorem does not speak.
 Json ExistsCertificate(const ExactProblem& problem);
-// `cycle`, for those of the policies that end in one; a null value if none does.
+// `cycle`, for those of the policies that end in one; in space, of frictionless and static contacts, for the
+// first that is proved to. A null value if none is.
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
 // `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that
 // they miss; a null value if one of these is not so, or if no solution was found.
