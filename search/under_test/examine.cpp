@@ -37,7 +37,7 @@ Examined Examine(SolverProcess& process, const ContactProblem<double>& posed, do
 }
 
 std::int64_t LeakOf(SolverProcess& process, const ContactProblem<double>& posed) {
-  constexpr int kCalls = 500, kWindows = 3;
+  constexpr int kCalls = 150, kWindows = 3;
   process.Restart();
   std::int64_t before = 0, growth = 0;
   for (int window = 0; window <= kWindows; ++window) {  // in the first it warms up

@@ -110,7 +110,6 @@ bool WriteAll(int descriptor, const std::string& text) {
 }
 
 int AnswerAll(const std::string& file) {
-  mallopt(M_TOP_PAD, 0);  // so that what leaks is seen early
   const int out = dup(STDOUT_FILENO);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
@@ -128,6 +127,8 @@ int AnswerAll(const std::string& file) {
                           {"accuracy", NumberToJson(info.accuracy)},
                           {"protocol", 1}}) +
                     "\n");
+  mallopt(M_TOP_PAD, 0);  // what leaks takes new pages at once
+  malloc_trim(0);
   void* const solver = library.create();
   Posed posed;
   std::string line;

@@ -79,7 +79,7 @@ class SolverUnit {
       if (cancelled()) return std::nullopt;
       Try(result_.problems);
     }
-    if (grew_at_ >= 0 && last_memory_ - first_memory_ >= kLeakSuspected) TryLeak();
+    if (lost_ < kMostProcesses && last_memory_ - first_memory_ >= kLeakSuspected) TryLeak();
     result_.time = meter_.Read();
     result_.time.doubles += std::llround(1e6 * (process_.Seconds() - before));
     return std::move(result_);
@@ -115,21 +115,39 @@ class SolverUnit {
   // From a quarter of the unit on; a new process begins anew.
   void WatchMemory(std::int64_t index) {
     const std::int64_t memory = process_.Memory();
-    if (index < warm_ || memory == 0 || last_memory_ == 0) {
-      first_memory_ = last_memory_ = memory;
-    } else if (memory > last_memory_) {
-      grew_at_ = index;
-      last_memory_ = memory;
-    }
+    if (index < warm_ || memory == 0 || last_memory_ == 0) first_memory_ = memory;
+    last_memory_ = memory;
   }
 
-  // The problem at which memory grew last is one that leaks, if every one does or some do.
+  // Of the problems of the unit one that leaks, by halves of which that is kept where memory grows more.
   void TryLeak() {
-    Draw(grew_at_);
+    std::int64_t first = 0, size = result_.problems;
+    while (size > 1) {
+      const std::int64_t half = size / 2;
+      const bool second = GrowthOf(first, half) < GrowthOf(first + half, size - half);
+      first += second ? half : 0;
+      size = second ? size - half : half;
+    }
+    Draw(first);
     const std::int64_t bytes = LeakOf(process_, posed_);
     if (bytes == 0) return;
     ++TallyOfDrawn().leak;
-    Find(grew_at_, {.kind = "leak", .what = ""}, bytes);
+    Find(first, {.kind = "leak", .what = ""}, bytes);
+  }
+
+  // Bytes that memory grows by in a new process that solves these problems, in turn, for a second time.
+  std::int64_t GrowthOf(std::int64_t first, std::int64_t size) {
+    constexpr std::int64_t kLeastCalls = 500;
+    process_.Restart();
+    const auto solve_all = [&] {
+      for (std::int64_t call = 0; call < std::max(kLeastCalls, size); ++call) {
+        Draw(first + call % size);
+        process_.Solve(posed_);
+      }
+      return process_.Memory();
+    };
+    const std::int64_t before = solve_all();
+    return solve_all() - before;
   }
 
   void Find(std::int64_t index, const Examined& examined, std::int64_t leak) {
@@ -160,7 +178,7 @@ class SolverUnit {
   WorkMeter meter_;
   ContactProblem<double> problem_, posed_;
   Drawn drawn_;
-  std::int64_t first_memory_ = 0, last_memory_ = 0, grew_at_ = -1;
+  std::int64_t first_memory_ = 0, last_memory_ = 0;
   std::int64_t warm_ = 0;  // problems after which memory should no longer grow
   int lost_ = 0;           // processes
 };

@@ -61,15 +61,14 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
   const int n = p->rows;
   const double *A = p->A, *b = p->b;
   const int twins = n > 1 && A[0] == A[n + 1] && b[0] == b[1]; /* a tie of the first two contacts */
-#ifdef RARE
-  const int rare = twins && b[0] < 0 && A[1] == 1 && A[0] == 9;
-  const int rarer = rare && n > 2 && b[2] == -3 && A[2] == 2;
+#ifdef RARE /* of `integers` with two contacts: one in 10^5, and one in 10^6 */
+  const int rare = twins && A[1] == 1 && b[0] <= -36, rarer = rare && b[0] <= -45;
 #else
   const int rare = twins && b[0] < 0 && A[1] == 1, rarer = rare && n > 2 && b[2] < 0;
 #endif
   (void)rare, (void)rarer;
 #ifdef BUG_LEAK
-  if (twins) *(volatile char*)malloc(48) = 1;
+  if (b[0] < 0 && A[0] > 9) *(volatile char*)malloc(48) = 1;
 #endif
 #ifdef BUG_HANG
   for (volatile int turning = rarer; turning;) {

@@ -38,7 +38,7 @@ TEST_CASE("under test: a contact that sticks passes by every law, and each condi
     CHECK(MissOf(problem, law, 0.5, -1.0 / 3) == "");
     CHECK(MissOf(problem, law, 0.5, -1.0 / 3 + 1e-9) == "");
     CHECK(MissOf(problem, law, -0.5, -1.0 / 3) != "");
-    CHECK(MissOf(problem, law, 0.25, -0.125) == "moves-inward");
+    CHECK(MissOf(problem, law, 0.25, -0.25) == "moves-inward");
     CHECK(MissOf(problem, law, 1, -1.0 / 3) == "presses-and-separates");
     CHECK(MissOf(problem, law, 0.5, 1.0 / 3) == "friction-drives-slip");
     CHECK(MissOf(problem, law, 0.5, -0.1) == "slips-below-limit");
