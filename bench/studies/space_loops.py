@@ -3,8 +3,8 @@
 
     A = J J', b = J w    J 3n x (3n + 1), entries of J and w uniform integers in [-1000, 1000]
 
-mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn. Doubles suspect a loop where a rounded state stands again. `certify
---claim cycle` proves it: the sets of a state that remembers nothing else stand again (`states`), or the run never
+mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn. Doubles suspect a loop where a rounded state recurs. `certify
+--claim cycle` proves it: the sets of a state that remembers nothing else recur (`states`), or the run never
 leaves a box of what it remembers (`box`); `lowest mu`: of those that are proved. Every certificate is shown to the
 independent checker, certify/check_runs.py. `refused`: those that it does not accept. Exit code 1 if there are any."""
 

@@ -47,7 +47,7 @@ inline constexpr std::string_view kNoProof =
     "a state recurs after rounding: forces are irrational, and this is no proof";
 // Why one over intervals is.
 inline constexpr std::string_view kProofOfSets =
-    "proved: the sets of a state that remembers nothing stand again, and decide its forces";
+    "proved: the sets of a state that remembers nothing recur, and decide its forces";
 inline constexpr std::string_view kProofOfBox =
     "proved: the steps from a state to the next of the same sets map a box of what it remembers into itself";
 

@@ -5,7 +5,7 @@
 //             `singular` and `cycle` are statements about the algorithm in exact arithmetic. Forces are
 //             irrational, but not those of a state that remembers nothing: no contact in NCF, no resting force,
 //             the matrix of C and CF regular. There they are a rational function of the sets, so the sets of
-//             such a state that stand again prove the loop, if all systems in between are regular. Where that
+//             such a state that recur prove the loop, if all systems in between are regular. Where that
 //             shows nothing, loops_in_space.h looks with more bits, and for a box that the run never leaves;
 //             what it does not decide either ends `undecided`.
 // Kinds       bilateral and sliding contacts leave a problem exactly (solver/problem/reduction.h), before its
