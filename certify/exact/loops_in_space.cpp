@@ -263,17 +263,18 @@ Rational OfPlaces(const Rational& x, int places) {
 // What was tried: beyond these nothing is sought.
 constexpr int kStatesTried = 4;
 constexpr int kNewtonSteps = 60;
-constexpr int kPlacesOfRadii[] = {10, 16, 24, 34, 48, 70, 100, 140};
+constexpr int kPlacesOfRadii[] = {10, 16, 22, 28, 34, 40, 48, 56, 64, 76, 90, 110, 140};
 constexpr int kMoreBitsOfCentre = 20;
-constexpr int kMarginOfBits = 64;  // between what finds a proof and what it states
-constexpr int kSizesOfMargin =
-    2;  // a box is so much smaller than the first that does, if the run comes into that
+// What a proof states leaves room for a checker whose enclosures are wider: half as many bits more, and a box
+// so many sizes smaller than the first that does.
+constexpr int kSizesOfMargin = 2;
 
 // Bits and turns of the main loop: intervals of a run lose some four bits at every turn.
 struct Effort {
   int bits, turns;
 };
-constexpr Effort kEfforts[] = {{256, 50}, {768, 160}};
+constexpr Effort kEfforts[] = {{256, 50}, {768, 160}, {1536, 320}};
+constexpr int kBitsForAll = 768;  // more only where there is a box
 
 class LoopSearch {
  public:
@@ -295,8 +296,9 @@ class LoopSearch {
     return std::nullopt;
   }
 
-  // Whether more bits could show more.
+  // Whether more bits could show more, and whether there is a box, though the run did not come into it.
   bool is_hopeless() const { return ended_ || (unsure_ && !blurred_); }
+  bool contracts() const { return contracts_; }
 
  private:
   // A state of the main loop.
@@ -415,22 +417,22 @@ class LoopSearch {
     } catch (const RunEnded&) {
       return std::nullopt;
     }
-    std::optional<LoopInSpace> found;
-    int smaller = 0;
+    int smaller = -1;  // sizes that do, after the first
     for (const int places : kPlacesOfRadii) {
-      if (2 * places > effort_.bits || smaller > kSizesOfMargin) break;
-      smaller += found.has_value();
+      if (2 * places > effort_.bits) break;
       try {
-        if (auto box = FindBoxOfSize(top, charts, period, fixed, places)) found = std::move(box);
+        auto box = FindBoxOfSize(top, charts, period, fixed, places);
+        smaller += box.has_value();
+        if (box && smaller == kSizesOfMargin) return box;
       } catch (const UnsureComparison&) {  // a smaller one may do
       } catch (const RunEnded&) {
       }
     }
-    return found;
+    return std::nullopt;
   }
 
   std::optional<LoopInSpace> FindBoxOfSize(const Top& top, const std::vector<int>& charts, std::int64_t period,
-                                           const ExactVector& fixed, int places) const {
+                                           const ExactVector& fixed, int places) {
     const int size = static_cast<int>(fixed.size());
     const ExactVector centre =
         fixed.unaryExpr([&](const Rational& x) { return OfPlaces(x, places + kMoreBitsOfCentre); });
@@ -441,8 +443,10 @@ class LoopSearch {
       for (int k = 0; k < size; ++k)
         radii[k] = OfPlaces(Rational(weights[k]) / (mpz_class(1) << places), places + kMoreBitsOfCentre);
       const Image image = problem_.ImageOf(top.state, BoxAround(centre, radii), charts, period, kMostSteps);
-      if (!LeavesBox(middle, image, centre, radii))
+      if (!LeavesBox(middle, image, centre, radii)) {
+        contracts_ = true;
         return Entered(top, charts, period, centre, radii, middle.word);
+      }
       Eigen::MatrixXd steepest(size, size);
       for (int i = 0; i < size; ++i) {
         for (int k = 0; k < size; ++k)
@@ -471,7 +475,7 @@ class LoopSearch {
     return std::nullopt;
   }
 
-  int bits_of_proof() const { return effort_.bits + kMarginOfBits; }
+  int bits_of_proof() const { return effort_.bits / 2 * 3; }
 
   static constexpr std::size_t kMostSteps = 10000;  // of a period
 
@@ -480,7 +484,7 @@ class LoopSearch {
   FineProblem problem_;
   std::vector<Top> tops_;
   Steps word_;
-  bool ended_ = false, unsure_ = false, blurred_ = false;
+  bool ended_ = false, unsure_ = false, blurred_ = false, contracts_ = false;
 };
 
 // ---- Checking a proof --------------------------------------------------------------------------
@@ -573,14 +577,15 @@ std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const P
                                             const Limits& limits) {
   for (const Effort effort : kEfforts) {
     std::optional<LoopInSpace> loop;
-    bool hopeless = false;
+    bool hopeless = false, contracts = false;
     {
       LoopSearch search(problem, policy, limits, effort);
       loop = search.Find();
       hopeless = search.is_hopeless();
+      contracts = search.contracts();
     }
     if (loop && !FindLoopFault(problem, policy, *loop)) return loop;
-    if (hopeless || limits.Stopped()) break;
+    if (hopeless || limits.Stopped() || (effort.bits >= kBitsForAll && !contracts)) break;
   }
   return std::nullopt;
 }
