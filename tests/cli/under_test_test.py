@@ -109,7 +109,7 @@ class UnderTest(cli.TestCase):
         self.assertEqual(len(least["minimized"]["contacts"]), 3)
 
     def test_a_leak_is_found(self):
-        least = self.smallest(self.toy("BUG_LEAK"), "leak", contacts=(2,), problems=4000)
+        least = self.smallest(self.toy("BUG_LEAK"), "leak", contacts=(1,), problems=4000)
         self.assertGreaterEqual(least["facts"]["minimized"]["bytes"], 48)
 
     def test_a_solution_that_is_refused_stands_beside_the_finding(self):
@@ -163,7 +163,8 @@ class UnderTest(cli.TestCase):
         for answer, signature in (("print('hm', flush=True)", "crash-garbled-1c"), ("sys.exit(3)", "crash-exit-3-1c"),
                                   ("print('{\"solved\": true, \"f\": [NaN, 0]}', flush=True)", "not-finite-1c")):
             name = signature + ".store"
-            done = self.search(self.program(greeting + answer + "\n"), name, contacts=(1,), problems=1, unit=1, finishing=0)
+            done = self.search(self.program(greeting + answer + "\n"), name, contacts=(1,), problems=1, unit=1,
+                               finishing=0)
             self.assertEqual(done.code, 0, done.err)
             self.assertEqual([finding["signature"] for finding in self.findings(name)], [signature])
 
