@@ -256,7 +256,7 @@ def certificates(program):
             ("certificates", len(files)),
             ("accepted by `check`, by `check_certificate.py`", f"{ours}, {theirs}"),
             ("minimized loops that replay to their certified period", replayed),
-            ("of these endless under every policy", whole_grid)]
+            ("among them loops under every policy", whole_grid)]
     return table(["a search of fixed size", ""], rows)
 
 
