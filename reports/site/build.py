@@ -115,14 +115,14 @@ class Site:
         """Writes the page of a run; its data, as the program put it there."""
         name = f"play/{Path(file).name}.html"
         text = self.ask("replay", f"corpus/{file}.json", *options, "--html", "-", codes=(0, 1, 3))
-        self.write(name, text.replace("<body>", '<body>\n<p class="kicker"><a href="../gallery.html">Gallery</a></p>', 1))
+        self.write(name, with_way_back(text))
         return name, json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])
 
     def simulated(self, file):
         name = f"play/{Path(file).name}.html"
         with tempfile.TemporaryDirectory() as folder:
             self.ask("simulate", f"corpus/{file}.json", "--seconds", "0.2", "-o", f"{folder}/out")
-            self.write(name, Path(folder, "out/animation.html").read_text())
+            self.write(name, with_way_back(Path(folder, "out/animation.html").read_text()))
         return name
 
     # ---- Pages ----
@@ -151,8 +151,9 @@ is no scene the picture shows the forces of the published algorithm, step by ste
         policies = json.loads(self.ask("replay", "corpus/cycle-every-policy-mu-1.json", "--all-policies", "--json"))
         svg = (ROOT / "corpus/scenes/block-in-a-valley-loop.svg").read_text()
         self.page("index.html", "Forces that never settle", f"""<div class="story">
-<div>
 <h1>Forces that never settle</h1>
+<figure class="drawing">{svg}<figcaption>The forces of the published algorithm on the block, again and again.</figcaption></figure>
+<div>
 <p>A block lies on two slopes. A simulation must know the forces where they touch, at every instant.</p>
 <p>In 1994 D. Baraff published an algorithm that finds them. It raises one force after another, and lets the others
 follow, until every contact obeys Coulomb's law of friction. Does it always end?</p>
@@ -166,7 +167,6 @@ driving turns back with the path, and always ends.</p>
 <p class="calls"><a class="call" href="play/block-in-a-valley.html">Step through the loop</a>
 <a class="call" href="paste.html">Paste your matrix</a> <a class="call" href="gallery.html">See twelve problems</a></p>
 </div>
-<figure class="drawing">{svg}<figcaption>The forces of the published algorithm on the block, again and again.</figcaption></figure>
 </div>""")
 
     def theorem(self):
@@ -280,6 +280,10 @@ the accelerations. <code>baraff_law</code> is the weaker law of the paper, which
 def page_of(name):
     """The page of a text."""
     return "docs/" + re.sub(r"(^|/)README\.md$", r"\1index.md", name).removesuffix(".md") + ".html"
+
+
+def with_way_back(page):
+    return page.replace("<body>", '<body>\n<p class="kicker"><a href="../gallery.html">Gallery</a></p>', 1)
 
 
 def slug(text, _):

@@ -69,7 +69,7 @@ function whatHappens({title, end, replay}) {
   const words = how === undefined ? `ends so: ${end}.` : how(replay);
   const more = /; over doubles alone|after rounding/.test(end) ? ' Over rounded numbers: stiction replay says what is proved.' : '';
   const holds = replay.outcome === 'solved' ? true : loops || replay.outcome === 'ray' ? false : null;
-  return said(holds, `${title} ${words}${more}`);
+  return said(holds, `${title.split(',')[0]} ${words}${more}`);
 }
 
 // What a contact does, by its rows of f and a.
