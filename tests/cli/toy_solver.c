@@ -68,7 +68,7 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
 #endif
   (void)rare, (void)rarer;
 #ifdef BUG_LEAK
-  if (b[0] < 0 && A[0] > 9) *(volatile char*)malloc(48) = 1;
+  if (b[0] < 0) *(volatile char*)malloc(48) = 1;
 #endif
 #ifdef BUG_HANG
   for (volatile int turning = rarer; turning;) {

@@ -109,8 +109,11 @@ class UnderTest(cli.TestCase):
         self.assertEqual(len(least["minimized"]["contacts"]), 3)
 
     def test_a_leak_is_found(self):
-        least = self.smallest(self.toy("BUG_LEAK"), "leak", contacts=(1,), problems=4000)
-        self.assertGreaterEqual(least["facts"]["minimized"]["bytes"], 48)
+        done = self.search(self.toy("BUG_LEAK"), "leak.store", contacts=(1,), problems=4000, finishing=0)
+        self.assertEqual(done.code, 0, done.err)
+        found = self.findings("leak.store")
+        self.assertEqual([finding["signature"] for finding in found], ["leak-1c"], done.out)
+        self.assertGreaterEqual(found[0]["facts"]["found"]["bytes"], 48)
 
     def test_a_solution_that_is_refused_stands_beside_the_finding(self):
         least = self.smallest(self.toy("BUG_REFUSES"), "refused-solvable")
