@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "certify/exact/properties.h"
 #include "corpus/exact_problem.h"
 #include "solver/problem/options.h"
 
