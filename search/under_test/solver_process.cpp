@@ -24,7 +24,7 @@ namespace stiction {
 namespace {
 
 constexpr double kLookEvery = 0.05;  // seconds between looks at its processor time
-constexpr double kGreetingSeconds = 30;
+constexpr double kGreetingSeconds = 60;
 
 // Python and others write what JSON has no word for.
 std::string WithNulls(std::string line) {

@@ -128,7 +128,7 @@ class Certificates(cli.TestCase):
         for file, words, says in [
                 (sliding, ("--claim", "safe"), ["contacts[0].kind", "sliding", "frictionless or static: safety"]),
                 (sliding, ("--claim", "safe-by-condition"), ["contacts[0].kind", "safety"]),
-                (space, ("--claim", "cycle"), ["dimension", "the plane only"]),
+                (space, ("--claim", "safe"), ["dimension", "the plane only"]),
                 (space, ("--claim", "counterexample"), ["dimension", "the plane only"]),
                 (plane, ("--claim", "coulomb-solution"), ["dimension", "solution-exists"])]:
             self.refuses("certify", file, "-o", out, *words, says=[file, *says])

@@ -226,7 +226,7 @@ class Solve(cli.TestCase):
         space = changed(cli.SOLVED, dimension=3, A=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
                         b=["-1", "0", "0"])
         file = self.file("p.json", space)
-        for verb in [("minimize", "-o", "-", "--as-scene"), ("certify", "-o", "-", "--claim", "cycle")]:
+        for verb in [("minimize", "-o", "-", "--as-scene"), ("certify", "-o", "-", "--claim", "counterexample")]:
             self.refuses(*verb, file, says=[file, "dimension: found 3"])
         frictionless = changed(cli.SOLVED, contacts=[{"kind": "frictionless"}], A=[["2"]], b=["-1"])
         self.assertEqual(self.succeeds("solve", self.file("p.json", frictionless), "--json").json()["f"], ["1/2"])
