@@ -166,6 +166,8 @@ class Pasted(cli.TestCase):
             "": "A: found nothing, expected numbers",
             "1 x\n2 3": "A: found x, expected a number",
             "1 nan\n2 3": "A: found nan, expected a number",
+            "1 2 3\n4 5 6": "A: found 2 rows of 3 numbers, expected as many rows",
+            "1": "b: found 2 numbers, expected 1, one for each row of A",
             "1 2\n3": "A: found 1 numbers in row 2, expected 2",
             "[[1. 2. ... 3.]]": "A: found ..., where numpy leaves numbers out",
             "%%MatrixMarket matrix coordinate pattern general\n2 2 1\n1 1": "A: found %%MatrixMarket matrix coordinate pattern",

@@ -78,8 +78,12 @@ export function fileOfPasted({A, b, mu, dimension}) {
   const rows = matrixOf(A, 'A'), uneven = rows.findIndex(row => row.length !== rows[0].length);
   if (uneven >= 0)
     throw new Error(`A: found ${rows[uneven].length} numbers in row ${uneven + 1}, expected ${rows[0].length}`);
-  const coefficients = matrixOf(mu, 'mu').flat();
-  const file = {A: rows, b: matrixOf(b, 'b').flat(), mu: coefficients.length === 1 ? coefficients[0] : coefficients};
+  if (rows.length !== rows[0].length)
+    throw new Error(`A: found ${rows.length} rows of ${rows[0].length} numbers, expected as many rows`);
+  const column = matrixOf(b, 'b').flat(), coefficients = matrixOf(mu, 'mu').flat();
+  if (column.length !== rows.length)
+    throw new Error(`b: found ${column.length} numbers, expected ${rows.length}, one for each row of A`);
+  const file = {A: rows, b: column, mu: coefficients.length === 1 ? coefficients[0] : coefficients};
   if (dimension !== '') file.dimension = Number(dimension);
   return JSON.stringify(file);
 }
