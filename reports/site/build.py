@@ -27,8 +27,9 @@ MARK = ".stiction-site"  # in a folder that this program may write again
 PAGES = {"index.html": "Story", "gallery.html": "Gallery", "paste.html": "Paste your matrix", "theorem.html": "Theorem",
          "report/index.html": "Report", "docs/index.html": "Documentation"}
 # The texts that stand beside every page of the documentation: the page, its name.
-TEXTS = {"docs/index.html": "First page", "docs/cli/tour.html": "A tour", "docs/corpus/formats/problems.html": "Problem files",
-         "docs/words.html": "Words", "docs/python/index.html": "Python", "docs/solver/c/index.html": "C and engines",
+TEXTS = {"docs/index.html": "First page", "docs/cli/tour.html": "A tour",
+         "docs/corpus/formats/problems.html": "Problem files", "docs/words.html": "Words",
+         "docs/python/index.html": "Python", "docs/solver/c/index.html": "C and engines",
          "docs/certify/results.html": "All results", "docs/certify/grounds.html": "What claims rest on",
          "docs/texts.html": "All texts"}
 FOLDERS = ("bench", "certify", "cli", "corpus", "python", "reports", "scene", "search", "solver", "tests")
@@ -58,7 +59,8 @@ GALLERY = (
     ("scenes/large/brick-wall", "A wall of 95 bricks",
      "Every brick stays where it is. Play the wall, and see the forces between its bricks.", None),
     ("wrong-in-doubles-3-contacts", "A solver that fails",
-     "Nearly degenerate. In floating-point numbers the algorithm says solved, and its forces are wrong: the gate refuses them.",
+     "Nearly degenerate. In floating-point numbers the algorithm says solved, and its forces are wrong: the gate "
+     "refuses them.",
      ("--arithmetic", "double")),
     ("exponential-pivots-5-frictionless", "The long way round",
      "Five contacts without friction, and 31 steps. Each further contact of this kind doubles them.", ()),
@@ -134,7 +136,7 @@ class Site:
                 name, ends, picture = self.simulated(file), "", self.drawn(file)
             else:
                 name, data = self.replay(file, options)
-                ends = "".join(f'<li class="run-{i}"><b>{html.escape(run["title"].split(",")[0])}</b>: {ending(run)}</li>'
+                ends = "".join(f'<li class="run-{i}"><b>{run["title"].split(",")[0]}</b>: {ending(run)}</li>'
                                for i, run in enumerate(data["runs"]))
                 picture = self.drawn(file) if data["picture"] else plot(data)
             cards.append(f"""<li class="card"><a href="{name}"><h2>{heading}</h2>
@@ -142,8 +144,8 @@ class Site:
 <p>{sentence}</p>
 <ul class="ends">{ends}</ul></li>""")
         self.page("gallery.html", "Gallery", f"""<h1>Twelve problems</h1>
-<p>Each opens as a page of its own. You can step through the run there, change its numbers, and run it again. Where there
-is no scene the picture shows the forces of the published algorithm, step by step; what repeats is shaded.</p>
+<p>Each opens as a page of its own. You can step through the run there, change its numbers, and run it again. Where
+there is no scene the picture shows the forces of the published algorithm, step by step; what repeats is shaded.</p>
 <ul class="cards">{"".join(cards)}</ul>""")
 
     def story(self):
@@ -152,7 +154,8 @@ is no scene the picture shows the forces of the published algorithm, step by ste
         svg = (ROOT / "corpus/scenes/block-in-a-valley-loop.svg").read_text()
         self.page("index.html", "Forces that never settle", f"""<div class="story">
 <h1>Forces that never settle</h1>
-<figure class="drawing">{svg}<figcaption>The forces of the published algorithm on the block, again and again.</figcaption></figure>
+<figure class="drawing">{svg}
+<figcaption>The forces of the published algorithm on the block, again and again.</figcaption></figure>
 <div>
 <p>A block lies on two slopes. A simulation must know the forces where they touch, at every instant.</p>
 <p>In 1994 D. Baraff published an algorithm that finds them. It raises one force after another, and lets the others
@@ -181,10 +184,10 @@ driving turns back with the path, and always ends.</p>
         self.page("theorem.html", "The theorem", f"""<h1>Contacts at rest always have forces</h1>
 <div class="story">
 <div>
-<p>Given are n contacts, a matrix A, a vector b and friction coefficients mu. Wanted are contact forces f with accelerations
-a = A f + b. At every contact the normal force pushes, nothing sinks in, and a contact that parts carries no force.
-Friction is at most mu times the normal force. Where a contact begins to slide, friction is at that bound, against the
-motion.</p>
+<p>Given are n contacts, a matrix A, a vector b and friction coefficients mu. Wanted are contact forces f with
+accelerations a = A f + b. At every contact the normal force pushes, nothing sinks in, and a contact that parts
+carries no force. Friction is at most mu times the normal force. Where a contact begins to slide, friction is at
+that bound, against the motion.</p>
 <p class="claim"><strong>Theorem.</strong> If A is symmetric and semidefinite, and b lies in the range of A, then such
 forces exist, for every mu &#8805; 0, in the plane and in space.</p>
 <p>Bodies at rest under any loads give such A and b. The forces need not be unique. With
@@ -194,13 +197,13 @@ bodies</a> there may be none.</p>
 and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short. We do not know
 <a href="docs/certify/related_work.html">whether it is new</a> in space.</p>
 </div>
-<figure class="drawing">{own_ids(self.drawn("scenes/space/tripod"), "t")}<figcaption>A tripod at rest: the theorem says that
-forces hold it, whatever its feet rub on.</figcaption></figure>
+<figure class="drawing">{own_ids(self.drawn("scenes/space/tripod"), "t")}
+<figcaption>A tripod at rest: the theorem says that forces hold it, whatever its feet rub on.</figcaption></figure>
 </div>
 <h2>Its statement in Coq</h2>
 <p>From <code>certify/coq/existence</code>, copied when this page was made. <code>fN</code>, <code>fX</code>,
-<code>fY</code> are the normal force and the two components of friction; <code>aN</code>, <code>aX</code>, <code>aY</code>
-the accelerations. <code>baraff_law</code> is the weaker law of the paper, which holds besides.</p>
+<code>fY</code> are the normal force and the two components of friction; <code>aN</code>, <code>aX</code>,
+<code>aY</code> the accelerations. <code>baraff_law</code> is the weaker law of the paper, which holds besides.</p>
 <pre tabindex="0"><code>{html.escape(quoted)}</code></pre>""")
 
     def paste(self):
@@ -217,21 +220,24 @@ the accelerations. <code>baraff_law</code> is the weaker law of the paper, which
 
     def documentation(self):
         texts = {ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")}
-        texts |= {path for folder in FOLDERS for path in (ROOT / folder).rglob("*.md") if "node_modules" not in path.parts}
+        texts |= {path for folder in FOLDERS for path in (ROOT / folder).rglob("*.md")
+                  if "node_modules" not in path.parts}
         self.texts = {path.relative_to(ROOT).as_posix() for path in texts}
         titles = {name: self.text(name) for name in sorted(self.texts)}
         words = "".join(f'<dt>{html.escape(row["word"])}</dt><dd>{html.escape(row["meaning"])}'
                         f'{section(row["source"])}</dd>'
                         for row in json.loads(self.ask("words", "--json")))
         self.doc("docs/words.html", "Words", f'<h1>Words</h1>\n<p>What the words of answers and replays mean, as '
-                 f'<code>stiction words</code> says. Numbers are sections of the paper.</p>\n<dl class="words">{words}</dl>')
+                 f'<code>stiction words</code> says. Numbers are sections of the paper.</p>\n'
+                 f'<dl class="words">{words}</dl>')
         rows = "".join(f'<li><a href="{posixpath.relpath(page_of(name), "docs")}">{html.escape(title)}</a> '
                        f'<code>{name}</code></li>' for name, title in titles.items())
         self.doc("docs/texts.html", "All texts", f'<h1>All texts of the repository</h1>\n<ul class="texts">{rows}</ul>')
 
     def text(self, name):
         """Sets one text of the repository; its title."""
-        text = re.sub(r"\A---\n(.*?)\n---\n", r"```\n\1\n```\n", (ROOT / name).read_text(), flags=re.S)  # how it was measured
+        text = (ROOT / name).read_text()
+        text = re.sub(r"\A---\n(.*?)\n---\n", r"```\n\1\n```\n", text, flags=re.S)  # how it was measured
         body = markdown.markdown(text, output_format="html", extensions=[
             "fenced_code", "tables", "sane_lists", "toc"], extension_configs={"toc": {"slugify": slug}})
         body = re.sub(r'<a href="([^"]+)">(.*?)</a>', lambda link: self.link(name, *link.groups()), body, flags=re.S)
@@ -325,7 +331,8 @@ def ending(run):
     replay = run["replay"]
     return {"solved": "finds forces",
             "cycle": f"loops for ever, every {replay['period']} drives",
-            "ray": "runs off: a force grows without bound"}.get(replay["outcome"], html.escape(run["end"].split(";")[0]))
+            "ray": "runs off: a force grows without bound",
+            }.get(replay["outcome"], html.escape(run["end"].split(";")[0]))
 
 
 def own_ids(svg, mark):
@@ -352,12 +359,14 @@ def plot(data):
     parts = []
     if start is not None:
         x, y = edge + across * start, edge / 2
-        parts.append(f'<rect class="again" x="{x:.1f}" y="{y}" width="{width - edge - x:.1f}" height="{height - edge}"/>')
+        parts.append(f'<rect class="again" x="{x:.1f}" y="{y}" width="{width - edge - x:.1f}" '
+                     f'height="{height - edge}"/>')
     parts.append(f'<line class="axis" x1="{edge}" x2="{width - edge}" y1="{height - edge + down * low:.1f}" '
                  f'y2="{height - edge + down * low:.1f}"/>')
     for name, row in zip(data["rows"], values):
-        parts.append(f'<polyline class="{"normal" if name.startswith("N") else "friction"}" points="'
-                     + " ".join(place(i, y) for i, y in enumerate(row)) + f'"><title>force of {name}</title></polyline>')
+        points = " ".join(place(i, y) for i, y in enumerate(row))
+        parts.append(f'<polyline class="{"normal" if name.startswith("N") else "friction"}" points="{points}">'
+                     f"<title>force of {name}</title></polyline>")
     return (f'<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {width} {height}" role="img" '
             f'aria-label="The forces, step by step">{"".join(parts)}</svg>')
 
@@ -384,14 +393,17 @@ def build(program, out, store):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="./run site", description="Static pages that work from disk and from any server.")
+    parser = argparse.ArgumentParser(prog="./run site",
+                                     description="Static pages that work from disk and from any server.")
     parser.add_argument("program", help=argparse.SUPPRESS)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="the folder to write")
-    parser.add_argument("--store", metavar="STORE", help="whose report is on it; the example of the repository otherwise")
+    parser.add_argument("--store", metavar="STORE",
+                        help="whose report is on it; the example of the repository otherwise")
     given = parser.parse_args()
     out = given.output.absolute()
     if out.exists() and not (out / MARK).is_file() and (not out.is_dir() or any(out.iterdir())):
-        sys.exit(f"site: {out}: found something that is no site, expected a new or empty folder, or a site to write again")
+        sys.exit(f"site: {out}: found something that is no site, expected a new or empty folder, or a site to write "
+                 "again")
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent) as made:
         build(Path(given.program).resolve(), Path(made), given.store)

@@ -31,7 +31,8 @@ export function hypotheses(rows, column) {
     left.delete(pivot);
     for (const i of left) {
       b[i] = eliminated(b[i], A[i][pivot], b[pivot], A[pivot][pivot]);
-      for (const j of left) if (j <= i) A[i][j] = A[j][i] = eliminated(A[i][j], A[i][pivot], A[pivot][j], A[pivot][pivot]);
+      for (const j of left)
+        if (j <= i) A[i][j] = A[j][i] = eliminated(A[i][j], A[i][pivot], A[pivot][j], A[pivot][pivot]);
     }
   }
   const rest = [...left];

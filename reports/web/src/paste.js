@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A problem that is pasted: what holds of it, what the algorithms do on it, and forces, in plain words. The address
-// holds the problem: #problem=..., as that of the viewer does (draft.js).
+// A problem that is pasted: what holds of it, what the algorithms do on it, and forces, in plain words. The
+// address holds the problem: #problem=..., as that of the viewer does (draft.js).
 import {byId, element} from './dom.js';
 import {decoded, Draft, encoded, fileOf, hasMu} from './draft.js';
 import {hypotheses} from './hypotheses.js';
@@ -16,10 +16,17 @@ const kExamples = {
     b: '-1\n0',
     mu: '1',
   },
-  'in space': {A: '{"A": [[2, 0, 0], [0, 1, "1/2"], [0, "1/2", 1]],\n "b": [-1, 1, "-0.2"], "mu": "0.3"}', b: '', mu: ''},
+  'in space': {
+    A: '{"A": [[2, 0, 0], [0, 1, "1/2"], [0, "1/2", 1]],\n "b": [-1, 1, "-0.2"], "mu": "0.3"}',
+    b: '',
+    mu: ''
+  },
 };
 // Pages of the site in which a problem of that dimension can be stepped through, and how many rows they take.
-const kViewers = {2: ['play/cycle-every-policy-mu-1.html', 24], 3: ['play/cycle-under-both-slips.html', 15]};
+const kViewers = {
+  2: ['play/cycle-every-policy-mu-1.html', 24],
+  3: ['play/cycle-under-both-slips.html', 15]
+};
 
 const live = new Live(), fields = ['A', 'b', 'mu', 'dimension'];
 
@@ -37,8 +44,7 @@ function greyOut() {
 
 // ---- In words ----------------------------------------------------------------------------------
 
-const said = (holds, text) =>
-    element('li', {class: holds === null ? 'open' : holds ? 'is' : 'not'}, text);
+const said = (holds, text) => element('li', {class: holds === null ? 'open' : holds ? 'is' : 'not'}, text);
 
 // The theorem speaks of static and frictionless contacts, and bilateral ones (certify/existence.md).
 function whatHolds(draft) {
@@ -50,14 +56,16 @@ function whatHolds(draft) {
     list.push(said(found.isInRange, `b is ${found.isInRange ? '' : 'not '}in the range of A.`));
   if (slides) list.push(said(false, 'A contact slides.'));
   const exists = found.isInRange === true && !slides;
-  list.push(exists ? said(true, 'So forces exist: a theorem says so, for every mu.') :
-                     said(null, 'So the theorem on existence says nothing: forces may exist, or not.'));
+  list.push(
+      exists ? said(true, 'So forces exist: a theorem says so, for every mu.') :
+               said(null, 'So the theorem on existence says nothing: forces may exist, or not.'));
   return list;
 }
 
 const kEnds = {
   solved: () => 'ends, at forces that obey the law.',
-  cycle: ({start, period}) => `never ends: the state after ${start} drives comes back ${period} drives later, for ever.`,
+  cycle: ({start, period}) =>
+      `never ends: the state after ${start} drives comes back ${period} drives later, for ever.`,
   stall: () => 'never ends: within one drive a state comes back, for ever.',
   ray: () => 'runs off: nothing limits its last step, along which forces grow without bound.',
   singular: () => 'stops: it finds no direction in which to change the forces.',
@@ -67,7 +75,9 @@ const kEnds = {
 function whatHappens({title, end, replay}) {
   const how = kEnds[replay.outcome], loops = ['cycle', 'stall'].includes(replay.outcome);
   const words = how === undefined ? `ends so: ${end}.` : how(replay);
-  const more = /; over doubles alone|after rounding/.test(end) ? ' Over rounded numbers: stiction replay says what is proved.' : '';
+  const more = /; over doubles alone|after rounding/.test(end) ?
+      ' Over rounded numbers: stiction replay says what is proved.' :
+      '';
   const holds = replay.outcome === 'solved' ? true : loops || replay.outcome === 'ray' ? false : null;
   return said(holds, `${title.split(',')[0]} ${words}${more}`);
 }
@@ -82,32 +92,37 @@ function does(kind, f, a) {
 
 function table(draft, {f, a}) {
   const head = names => element('tr', {}, ...names.map(name => element('th', {scope: 'col'}, name)));
-  const cell = values => element(
-      'td', {}, ...values.flatMap((x, i) => [i === 0 ? null : ', ', number(x)]));
+  const cell = values => element('td', {}, ...values.flatMap((x, i) => [i === 0 ? null : ', ', number(x)]));
   const row = ({kind}, i) => {
     const first = draft.firstRow(i), rows = [first, first + draft.rowsOf(kind)];
     const [force, acceleration] = [f.slice(...rows), a.slice(...rows)];
     return element(
-        'tr', {}, element('th', {scope: 'row'}, String(i + 1)), element('td', {}, does(kind, force, acceleration)),
-        cell(force.slice(0, 1)), hasMu(kind) ? cell(force.slice(1)) : element('td', {}, '-'), cell(acceleration));
+        'tr', {}, element('th', {scope: 'row'}, String(i + 1)),
+        element('td', {}, does(kind, force, acceleration)), cell(force.slice(0, 1)),
+        hasMu(kind) ? cell(force.slice(1)) : element('td', {}, '-'), cell(acceleration));
   };
   return element(
       'div', {class: 'scroll', tabindex: '0', role: 'group', 'aria-label': 'Forces'},
       element(
-          'table', {}, element('thead', {}, head(['contact', 'it', 'normal force', 'friction', 'acceleration'])),
+          'table', {},
+          element('thead', {}, head(['contact', 'it', 'normal force', 'friction', 'acceleration'])),
           element('tbody', {}, ...draft.contacts.map(row))));
 }
 
 function solution(draft, runs) {
   const solved = runs.findLast(({replay}) => replay.outcome === 'solved');
   if (solved === undefined)
-    return [element('p', {}, 'No forces were found. That is no proof that there are none: ',
-                    element('code', {}, 'stiction certify'), ' decides it for small problems.')];
+    return [element(
+        'p', {}, 'No forces were found. That is no proof that there are none: ',
+        element('code', {}, 'stiction certify'), ' decides it for small problems.')];
   const note = solved.replay.arithmetic === 'exact' ? 'Exact' : 'Rounded';
   const sides = draft.dimension === 3 && solved.replay.method === 'complete' ?
-      ', with a polygon in place of the friction cone' : '';
-  return [element('p', {class: 'note'}, `${note}, by ${solved.title.toLowerCase()}${sides}. There may be others.`),
-          table(draft, solved.replay)];
+      ', with a polygon in place of the friction cone' :
+      '';
+  return [
+    element('p', {class: 'note'}, `${note}, by ${solved.title.toLowerCase()}${sides}. There may be others.`),
+    table(draft, solved.replay)
+  ];
 }
 
 function links(draft) {
@@ -119,7 +134,8 @@ function links(draft) {
     // Some browsers allow only so many a second.
   }
   const here = element('a', {href: `#problem=${letters}`}, 'A link that contains this problem');
-  const steps = draft.b.length > most ? null :
+  const steps = draft.b.length > most ?
+      null :
       element('a', {href: `${page}#step-0;problem=${letters}`}, 'Step through both runs');
   return element('p', {class: 'calls'}, here, ' ', steps);
 }
@@ -176,12 +192,15 @@ byId('stop').addEventListener('click', () => live.end('stopped'));
 byId('A').addEventListener('input', greyOut);
 addEventListener('hashchange', followAddress);
 for (const [name, values] of Object.entries(kExamples)) {
-  byId('examples').append(element('button', {
-    type: 'button',
-    click: () => {
-      fill(values);
-      run();
-    }
-  }, name));
+  byId('examples')
+      .append(element(
+          'button', {
+            type: 'button',
+            click: () => {
+              fill(values);
+              run();
+            }
+          },
+          name));
 }
 if (!followAddress()) fill(kExamples['a loop']);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pasted text as a problem file in the short form: JSON as it is, MatrixMarket, or rows of numbers as numpy prints
-// them. Every number stays the text that it was, so that nothing is rounded before the reader of files has it.
-// What cannot be read throws an Error, in words.
+// Pasted text as a problem file in the short form: JSON as it is, MatrixMarket, or rows of numbers as numpy
+// prints them. Every number stays the text that it was, so that nothing is rounded before the reader of files
+// has it. What cannot be read throws an Error, in words.
 
 const kNumber = /^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/, kFraction = /^[+-]?\d+\/\d+$/;
 
@@ -19,10 +19,11 @@ const isMarket = text => /^%%MatrixMarket/i.test(text);
 function market(text, where) {
   const [head, ...lines] = text.split('\n');
   const [, object, layout, field, symmetry] = head.toLowerCase().trim().split(/\s+/);
-  if (object !== 'matrix' || !['coordinate', 'array'].includes(layout) || !['real', 'integer'].includes(field) ||
-      !['general', 'symmetric'].includes(symmetry))
-    throw new Error(`${where}: found ${head.trim()}, expected a matrix, coordinate or array, real or integer, ` +
-                    'general or symmetric');
+  if (object !== 'matrix' || !['coordinate', 'array'].includes(layout) ||
+      !['real', 'integer'].includes(field) || !['general', 'symmetric'].includes(symmetry))
+    throw new Error(
+        `${where}: found ${head.trim()}, expected a matrix, coordinate or array, real or integer, ` +
+        'general or symmetric');
   const tokens = lines.filter(line => !line.startsWith('%')).join(' ').trim().split(/\s+/);
   const [rows, columns] = tokens.splice(0, 2).map(Number);
   if (!(rows > 0 && columns > 0 && rows * columns <= 1e6))
@@ -30,7 +31,8 @@ function market(text, where) {
   const matrix = Array.from({length: rows}, () => Array(columns).fill('0')), isHalf = symmetry === 'symmetric';
   const set = (i, j, token) => {
     if (!(i >= 0 && i < rows && j >= 0 && j < columns))
-      throw new Error(`${where}: found an entry in row ${i + 1}, column ${j + 1}, expected at most ${rows}, ${columns}`);
+      throw new Error(
+          `${where}: found an entry in row ${i + 1}, column ${j + 1}, expected at most ${rows}, ${columns}`);
     matrix[i][j] = exact(token, where);
     if (isHalf) matrix[j][i] = matrix[i][j];
   };
@@ -41,7 +43,8 @@ function market(text, where) {
   } else {
     const entries = Number(tokens.shift());
     if (tokens.length !== 3 * entries)
-      throw new Error(`${where}: found ${tokens.length} numbers after its sizes, expected three for each of its entries`);
+      throw new Error(
+          `${where}: found ${tokens.length} numbers after its sizes, expected three for each of its entries`);
     places = Array.from({length: entries}, (_, k) => [tokens[3 * k] - 1, tokens[3 * k + 1] - 1]);
   }
   const numbers = layout === 'array' ? tokens : tokens.filter((_, k) => k % 3 === 2);
@@ -54,8 +57,9 @@ function market(text, where) {
 // A row ends where its bracket does, or else with its line.
 function rowsOf(text, where) {
   if (text.includes('...'))
-    throw new Error(`${where}: found ..., where numpy leaves numbers out; print all of them: ` +
-                    'numpy.set_printoptions(threshold=sys.maxsize)');
+    throw new Error(
+        `${where}: found ..., where numpy leaves numbers out; print all of them: ` +
+        'numpy.set_printoptions(threshold=sys.maxsize)');
   const plain = text.replace(/^\s*(array|matrix)?\s*\(/, '').replace(/(,\s*dtype=[\w.]+)?\)\s*$/, '');
   const lines = plain.includes('[') ? plain.split(']') : plain.split(/[\n;]/);
   return lines.map(line => line.split(/[\s,[\];]+/).filter(token => token !== ''))
