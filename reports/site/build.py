@@ -329,6 +329,9 @@ def readings(policies):
 def ending(run):
     """How a run ended, in plain words."""
     replay = run["replay"]
+    rounded = replay.get("suspected", {})
+    if rounded.get("outcome") == "undecided":
+        return f"wrong by {rounded['residual']:.2g} over doubles, and refused; run again, exactly, it finds forces"
     return {"solved": "finds forces",
             "cycle": f"loops for ever, every {replay['period']} drives",
             "ray": "runs off: a force grows without bound",
