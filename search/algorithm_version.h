@@ -13,9 +13,10 @@ namespace stiction {
 
 inline constexpr int kAlgorithmVersion = 1;
 
-// Of what is counted of runs besides their steps and ends: which answers of doubles are wrong. A store is gone
-// on with, and merged, under one such version; it is raised with the other, too.
-inline constexpr int kCountsVersion = 2;
+// Of what is counted of runs besides their steps and ends: which answers of doubles are wrong, which loops in
+// space are proved. A store is gone on with, and merged, under one such version; it is raised with the other,
+// too.
+inline constexpr int kCountsVersion = 3;
 
 }  // namespace stiction
 

@@ -103,7 +103,7 @@ TEST_CASE("fine interval: what the ends leave open throws") {
   CHECK_FALSE(IsSurelyZero(third - third));
 }
 
-TEST_CASE("fine interval: more bits, a narrower number; the bits before come back") {
+TEST_CASE("fine interval: more bits make a narrower number, and the bits before come back") {
   const int before = FineBits::Now();
   const auto width = [](int bits) {
     const FineBits now(bits);
