@@ -159,8 +159,10 @@ std::string FailuresText(const UnderTestTally& tally) {
 std::string GroupText(const Finding& finding, std::int64_t count) {
   const Json facts = ParseJson(finding.facts, finding.signature);
   std::string text = fmt::format("  {:44} {} times", finding.signature, Grouped(count));
-  if (facts.contains("minimized"))
-    text += fmt::format(", minimized to {} contacts", facts["minimized"]["contacts"].get<int>());
+  if (facts.contains("minimized")) {
+    const int contacts = facts["minimized"]["contacts"].get<int>();
+    text += fmt::format(", minimized to {} contact{}", contacts, contacts == 1 ? "" : "s");
+  }
   if (facts.contains("alone") && !facts["alone"].get<bool>()) text += ", not by its problem alone";
   if (!finding.done) text += ", not finished";
   return text + "\n";
@@ -199,8 +201,9 @@ std::string SolverText(const Store& store, const std::string& file) {
   if (!findings.empty()) text += "findings, the smallest first:\n";
   for (const Finding& finding : findings)
     text += GroupText(finding, s.totals.record.signatures.at(finding.signature));
+  text = Folded(text);
   if (!findings.empty())
-    text += fmt::format("One as a problem file: {0} problem {1} {2}. The same search again goes on.\n",
+    text += fmt::format("The same search again goes on. One finding as a problem file:\n    {} problem {} {}\n",
                         ProgramName(), file, findings.front().signature);
   return text;
 }

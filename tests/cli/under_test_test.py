@@ -153,6 +153,11 @@ class UnderTest(cli.TestCase):
         told = done.json()
         self.assertEqual(told["solver"]["law"], "pyramid")
         self.assertGreater(told["counts"]["passed"], told["counts"]["problems"] // 2)
+        text = subprocess.run(["env", "COLUMNS=80", cli.program, "status", self.folder / "python.store"],
+                              capture_output=True, text=True, check=True).stdout
+        self.assertEqual([line for line in text.splitlines() if len(line) > 80 and not line.startswith("    ")
+                          and str(self.folder) not in line], [])
+        self.assertIn(" in a million", text)
 
     def program(self, body):
         file = self.folder / "program.py"
