@@ -384,7 +384,7 @@ def number(x):
 
 def build(program, out, store):
     site = Site(program, out)
-    for file in (WEB / "src/page.css", Path(__file__).with_name("site.css")):
+    for file in (WEB / "src/page.css", WEB / "src/site.css"):
         shutil.copy(file, out)
     site.story()
     site.gallery()
