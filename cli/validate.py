@@ -51,7 +51,7 @@ def main():
         if error is not None:
             wrong.append(f"{verb}: {error.json_path}: {error.message[-300:]}")
     if wrong:
-        sys.exit("\n".join(dict.fromkeys(wrong)))
+        sys.exit("\n".join(wrong))
 
 
 if __name__ == "__main__":

@@ -126,6 +126,7 @@ class Records(cli.TestCase):
         self.assertTrue(rows)
         self.assertEqual([row["frontier"] for row in rows if row["fault"] is not None], [])
 
+    @unittest.skipUnless(cli.ALL, "long")
     def test_the_independent_checker_accepts_their_certificates(self):
         for file in sorted((cli.ROOT / self.FOLDER).glob("*.json")):
             with self.subTest(record=file.stem):
@@ -136,6 +137,7 @@ class Records(cli.TestCase):
                                        "--problem", problem], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    @unittest.skipUnless(cli.ALL, "long")
     def test_no_record_is_beaten_by_others_side_by_side(self):
         folder = self.folder / "records"
         shutil.copytree(cli.ROOT / self.FOLDER, folder)

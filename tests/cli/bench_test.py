@@ -100,7 +100,7 @@ class PeersExtremes(cli.TestCase):
                         self.assertEqual(line["solved"], line["tried"])
 
 
-@unittest.skipIf(cli.SHORT, "long")
+@unittest.skipUnless(cli.ALL, "long")
 class Methods(cli.TestCase):
     SIZES, PROBLEMS = [2, 3], 48
 

@@ -74,7 +74,7 @@ def refused_by_schemas():
         return ""
     done = subprocess.run(["/usr/bin/python3", ROOT / "cli/validate.py", program], input=json.dumps(answers), text=True,
                           capture_output=True)
-    return done.stderr if done.returncode else ""
+    return "".join(dict.fromkeys(done.stderr.splitlines(keepends=True))) if done.returncode else ""
 
 
 def unwrapped(text):

@@ -108,7 +108,7 @@ class Live(cli.TestCase):
     def test_it_says_what_the_program_says_to_the_byte(self):
         cases = [(problem, *reading) for problem in corpus(2, "", "sliding", "endless") for reading in READINGS]
         self.assertGreater(len(cases), 300)
-        self.compare(cli.share(cases, 4))  # of five readings
+        self.compare(cli.share(cases, 20))  # of five readings
 
     def test_in_space_it_takes_the_steps_that_the_program_takes(self):
         """The published algorithm over doubles alone, which it says; the program has more to say of the end."""

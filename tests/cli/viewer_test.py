@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The replay viewer: its bundle is what its sources give, and a browser shows what the program found.
+"""The replay viewer: its bundle is what its sources give, and, at night, a browser shows what the program found.
 
 viewer_test.py PATH_TO_STICTION [SOURCES]
 
@@ -89,7 +89,7 @@ class Bundle(cli.TestCase):
         self.assertRegex(notice, r"^katex \d+\.\d+\.\d+\n\nThe MIT License")
 
 
-@unittest.skipIf(cli.SHORT, "pages are the same in every build")
+@unittest.skipUnless(cli.ALL, "long")
 class Browser(cli.TestCase):
     def test_in_a_browser(self):
         browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
