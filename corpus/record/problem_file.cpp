@@ -41,6 +41,12 @@ bool IsUnit(const std::array<Rational, 2>& x) { return Rational(x[0] * x[0] + x[
 
 // ---- Reading ---------------------------------------------------------------------------------
 
+using Contacts = std::vector<Contact<Rational>>;
+
+void Append(Contacts& contacts, const Contacts& more) {
+  contacts.insert(contacts.end(), more.begin(), more.end());
+}
+
 // A problem as it was read: `entries` or `factors` in place of problem.A where the file has these.
 struct ReadResult {
   ExactProblem problem;
@@ -60,10 +66,10 @@ class ProblemReader {
   void ReadHeader(const JsonPlace& place) const;
   void ReadMatrix(const JsonPlace& place, int rows, ReadResult& result, Faults& faults) const;
   Rational Number(const JsonPlace& place) const;
-  std::vector<Contact<Rational>> Contacts(const JsonPlace& place, int dimension, Faults& faults) const;
-  std::vector<Contact<Rational>> StaticContacts(const JsonPlace& mu, int dimension, int rows,
-                                                Faults& faults) const;
-  Contact<Rational> OneContact(const JsonPlace& place, int dimension, Faults& faults) const;
+  Contacts AllContacts(const JsonPlace& place, int dimension, Faults& faults) const;
+  Contacts StaticContacts(const JsonPlace& mu, int dimension, int rows, Faults& faults) const;
+  Contacts OneContact(const JsonPlace& place, int dimension, Faults& faults) const;
+  Contacts StaticContact(const JsonPlace& mu, int dimension) const;
   Rational Friction(const JsonPlace& place) const;
   std::array<Rational, 2> Slip(const JsonPlace& place, int dimension) const;
   Matrix DenseRows(const JsonPlace& place, int rows) const;
@@ -170,7 +176,7 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
       problem.contacts = StaticContacts(*mu, problem.dimension, RowsTold(place), of_contacts);
     } else {
       const char* expected = strict_ ? "an array of contacts" : "an array of contacts, or mu of static ones";
-      problem.contacts = Contacts(place.Required("contacts", expected), problem.dimension, of_contacts);
+      problem.contacts = AllContacts(place.Required("contacts", expected), problem.dimension, of_contacts);
     }
   });
   faults.Take(of_contacts);
@@ -212,32 +218,40 @@ void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& res
 
 Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
 
-std::vector<Contact<Rational>> ProblemReader::Contacts(const JsonPlace& place, int dimension,
-                                                       Faults& faults) const {
+Contacts ProblemReader::AllContacts(const JsonPlace& place, int dimension, Faults& faults) const {
   const std::size_t count = place.Size("an array of contacts");
-  std::vector<Contact<Rational>> contacts;
+  Contacts contacts;
   for (std::size_t i = 0; i < count; ++i)
-    faults.Try([&] { contacts.push_back(OneContact(place[i], dimension, faults)); });
+    faults.Try([&] { Append(contacts, OneContact(place[i], dimension, faults)); });
   return contacts;
 }
 
 // Of the short form: one mu for all, or one a contact.
-std::vector<Contact<Rational>> ProblemReader::StaticContacts(const JsonPlace& mu, int dimension, int rows,
-                                                             Faults& faults) const {
-  std::vector<Contact<Rational>> contacts;
-  const auto add = [&](const JsonPlace& place) {
-    contacts.push_back({.kind = ContactKind::kStatic, .mu = Friction(place), .slip = {}});
-  };
+Contacts ProblemReader::StaticContacts(const JsonPlace& mu, int dimension, int rows, Faults& faults) const {
+  Contacts contacts;
   if (mu.json().is_array()) {
-    for (std::size_t i = 0; i < mu.json().size(); ++i) faults.Try([&] { add(mu[i]); });
+    for (std::size_t i = 0; i < mu.json().size(); ++i)
+      faults.Try([&] { Append(contacts, StaticContact(mu[i], dimension)); });
     return contacts;
   }
-  add(mu);
-  if (rows >= 0 && dimension != 0) contacts.resize((rows + dimension - 1) / dimension, contacts[0]);
+  const Contacts each = StaticContact(mu, dimension);
+  const int count = rows >= 0 && dimension != 0 ? (rows + dimension - 1) / dimension : 1;
+  for (int i = 0; i < count; ++i) Append(contacts, each);
   return contacts;
 }
 
-Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimension, Faults& faults) const {
+bool IsInfinite(const JsonPlace& mu) { return mu.json() == "inf"; }
+
+// Of friction without a bound the cone is the half-space fN >= 0: a frictionless row, and bilateral ones that
+// hold the contact where it is, also while it parts.
+Contacts ProblemReader::StaticContact(const JsonPlace& mu, int dimension) const {
+  if (strict_ || !IsInfinite(mu)) return {{.kind = ContactKind::kStatic, .mu = Friction(mu), .slip = {}}};
+  Contacts rows(std::max(dimension, 1), {.kind = ContactKind::kBilateral, .mu = 0, .slip = {}});
+  rows[0].kind = ContactKind::kFrictionless;
+  return rows;
+}
+
+Contacts ProblemReader::OneContact(const JsonPlace& place, int dimension, Faults& faults) const {
   const std::string kinds = fmt::format("one of {}", fmt::join(kKindNames, ", "));
   const JsonPlace named = place.Required("kind", kinds);
   const std::string& name = named.Text(kinds);
@@ -246,12 +260,18 @@ Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimensio
   faults.Try([&] { place.AllowKeys({"kind", "mu", "slip"}); });
 
   Contact<Rational> contact;
+  Contacts of_static;
   contact.kind = static_cast<ContactKind>(kind - kKindNames.begin());
   const auto mu = place.Optional("mu"), slip = place.Optional("slip");
   faults.Try([&] {
     if (mu && !contact.HasFrictionRows()) mu->Refuse("no mu on a " + name + " contact");
     if (!contact.HasFrictionRows()) return;
-    contact.mu = Friction(place.Required("mu", fmt::format("the mu of a {} contact, a number >= 0", name)));
+    const JsonPlace given = place.Required("mu", fmt::format("the mu of a {} contact, a number >= 0", name));
+    if (contact.kind == ContactKind::kStatic) {
+      of_static = StaticContact(given, dimension);
+    } else {
+      contact.mu = Friction(given);
+    }
   });
   faults.Try([&] {
     if (slip && !HasSlip(contact)) slip->Refuse("no slip on a " + name + " contact");
@@ -259,15 +279,11 @@ Contact<Rational> ProblemReader::OneContact(const JsonPlace& place, int dimensio
     const JsonPlace given = place.Required("slip", "the direction of the sliding velocity");
     if (dimension != 0) contact.slip = Slip(given, dimension);
   });
-  return contact;
+  return of_static.empty() ? Contacts{contact} : of_static;
 }
 
 Rational ProblemReader::Friction(const JsonPlace& place) const {
-  const Json& json = place.json();
-  if (json == "inf" || json == "infinity" || json == "Infinity" || json == "+inf")
-    place.Refuse(
-        "a number >= 0: infinite friction is not built. Where the contact neither slips nor parts, write a "
-        "bilateral contact for each of its rows; where it may part, a mu above all |fF| / fN, such as 1e6");
+  if (IsInfinite(place)) place.Refuse("a number >= 0: friction without a bound is that of a static contact");
   Rational mu = Number(place);
   if (mu < 0) place.Refuse("mu >= 0");
   return mu;

@@ -132,7 +132,7 @@ class Faults(Case):
         certificate = self.folder / "certificate.json"
         self.succeeds("certify", self.file("p.json", cli.SOLVED), "-o", certificate)
         for file, says in (
-                (self.file("inf.json", {**SHORT, "mu": "inf"}), "write a bilateral contact"),
+                (self.file("inf.json", {**SHORT, "mu": "infinity"}), "mu: found \"infinity\""),
                 (self.file("both.json", {**cli.SOLVED, "mu": 1}), "mu: found mu beside contacts, expected one"),
                 (self.file("empty.json", {}), "an array of contacts, or mu of static ones"),
                 (certificate, "stiction check verifies"),

@@ -400,9 +400,25 @@ TEST_CASE("problem file: all that is missing or wrong is told at once") {
   });
 }
 
-TEST_CASE("problem file: an infinite mu is refused with what to write instead") {
-  CHECK_THAT(Refusal(OneContact(R"("kind": "static", "mu": "inf")")),
-             Catch::Contains("infinite friction is not built") && Catch::Contains("bilateral"));
+TEST_CASE("problem file: friction without a bound is a frictionless row, and bilateral ones") {
+  using enum ContactKind;
+  const auto kinds = [](const std::string& text) {
+    std::vector<ContactKind> result;
+    for (const Contact<Rational>& contact : ParseProblem(text, "p.json").problem.contacts) {
+      CHECK(contact.mu == (contact.kind == kStatic ? 1 : 0));
+      result.push_back(contact.kind);
+    }
+    return result;
+  };
+  CHECK(kinds(OneContact(R"("kind": "static", "mu": "inf")")) == std::vector{kFrictionless, kBilateral});
+  CHECK(kinds(OneContact(R"("kind": "static", "mu": "inf")", 3, 3)) ==
+        std::vector{kFrictionless, kBilateral, kBilateral});
+  const std::string matrix = R"("A": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], "b": [0,0,0,0])";
+  CHECK(kinds(R"({"mu": ["inf", 1], )" + matrix + "}") == std::vector{kFrictionless, kBilateral, kStatic});
+  CHECK(kinds(R"({"mu": "inf", )" + matrix + "}") ==
+        std::vector{kFrictionless, kBilateral, kFrictionless, kBilateral});
+  CHECK_THAT(Refusal(OneContact(R"("kind": "sliding", "mu": "inf", "slip": "1")")),
+             Catch::Contains("that of a static contact"));
 }
 
 TEST_CASE("problem file: an unknown key is refused wherever it stands") {
