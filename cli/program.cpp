@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/program.h"
 
+#include <fmt/format.h>
 #include <gmp.h>
 #include <unistd.h>
 
@@ -19,6 +20,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/output_error.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -72,6 +74,13 @@ void* Reallocate(void* old, std::size_t, std::size_t size) {
 
 void Free(void* memory, std::size_t) { std::free(memory); }
 
+// What ended the program: in a terminal it fits, elsewhere it is one line.
+int Refuse(std::string_view why, int status) {
+  const std::string line = fmt::format("stiction: {}\n", why);
+  std::cerr << (isatty(STDERR_FILENO) ? Folded(line, TextWidth(STDERR_FILENO)) : line);
+  return status;
+}
+
 }  // namespace
 
 int RunProgram(int argc, char** argv, int (*run)(int argc, char** argv)) {
@@ -86,21 +95,16 @@ int RunProgram(int argc, char** argv, int (*run)(int argc, char** argv)) {
     }
     return status;
   } catch (const InputError& error) {
-    std::cerr << "stiction: " << error.what() << "\n";
-    return kExitBadInput;
+    return Refuse(error.what(), kExitBadInput);
   } catch (
       const std::filesystem::filesystem_error& error) {  // of a path that was given, and cannot be looked at
-    std::cerr << "stiction: " << error.path1().string() << ": " << error.code().message() << "\n";
-    return kExitBadInput;
+    return Refuse(fmt::format("{}: {}", error.path1().string(), error.code().message()), kExitBadInput);
   } catch (const OutputError& error) {
-    std::cerr << "stiction: " << error.what() << "\n";
-    return kExitDisk;
+    return Refuse(error.what(), kExitDisk);
   } catch (const std::bad_alloc&) {
-    std::cerr << "stiction: limit: out of memory\n";
-    return kExitUndecided;
+    return Refuse("limit: out of memory", kExitUndecided);
   } catch (const std::exception& error) {
-    std::cerr << "stiction: internal error: " << error.what() << "\n";
-    return kExitInternal;
+    return Refuse(fmt::format("internal error: {}", error.what()), kExitInternal);
   }
 }
 

@@ -97,6 +97,16 @@ class Terminal(cli.TestCase):
             self.assertLessEqual(widest, columns)
             self.assertGreater(widest, columns - 20)
 
+    def test_a_refusal_fits_the_terminal_and_is_one_line_elsewhere(self):
+        wrong = self.file("wrong.json", {"A": [[1, 0], [0, 1]], "b": [1, 2], "mu": "infinite", "no such key": 1})
+        for words in (("solve", wrong), ("search", "--generator", "nothing of this name"), ("solve", self.made / "gone")):
+            one = cli.run(*words)
+            for columns in (60, 100):
+                code, text = on_a_terminal(columns, *words)
+                self.assertEqual((code, text.split()), (one.code, one.err.split()))
+                self.assertFalse([line for line in text.splitlines()
+                                  if len(line) > columns and re.search(r"\S \S", line.strip()[:columns])], text)
+
     def test_progress_is_one_line_that_changes(self):
         for columns in (60, 80):
             code, text = on_a_terminal(columns, "search", "--minutes", "0.05", "--store", self.made / f"p{columns}.store")
