@@ -6,9 +6,12 @@
 #include "certify/exact/cones.h"
 #include "certify/exact/farkas.h"
 #include "certify/exact/hypothesis.h"
+#include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/rounded.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
+#include "solver/solve.h"
 
 namespace stiction {
 namespace {
@@ -111,15 +114,118 @@ std::optional<ExactVector> SearchCone(const ExactProblem& problem) {
   return std::nullopt;
 }
 
+// Whether g = A'y is in K* and y'b > 0. Then nothing rests: of f in K with A f = -b it would be 0 <= g'f =
+// -y'b.
+bool RefutesRest(const ExactProblem& problem, const ExactVector& y) {
+  const FarkasVector farkas = MakeFarkasVector(problem, y);
+  return farkas.value > 0 && !FindDualConeViolation(problem, farkas.g);
+}
+
+// A problem without friction over doubles: x >= 0 along the edges of the cones. Its forces E x, by least
+// acceleration, propose forces at rest, and proofs that there are none. Exact numbers decide.
+class AlongEdges {
+ public:
+  // Throws InputError where doubles do not hold the problem.
+  AlongEdges(const ExactProblem& problem, EdgesOf which)
+      : problem_(problem),
+        rounded_(Rounded<double>(problem)),
+        edges_(MakeEdges(problem, FirstPolygons(problem), which)) {
+    E_ = Eigen::MatrixXd::Zero(rounded_.rows(), static_cast<int>(edges_.size()));
+    for (std::size_t j = 0; j < edges_.size(); ++j)
+      for (std::size_t k = 0; k < edges_[j].values.size(); ++k)
+        E_(edges_[j].row + static_cast<int>(k), static_cast<int>(j)) = ToDouble(edges_[j].values[k]);
+  }
+
+  // Exact forces on the edges that doubles load, none of them accelerated along itself; empty if doubles find
+  // none.
+  std::optional<ExactVector> Forces() const {
+    constexpr double kLoads = 1e-9;
+    const Eigen::VectorXd x = Pushed(0);
+    std::vector<ConeEdge> loaded;
+    std::vector<Rational> guess;
+    for (int j = 0; j < x.size(); ++j) {
+      if (!edges_[j].free && !(x[j] > kLoads * x.cwiseAbs().maxCoeff())) continue;
+      loaded.push_back(edges_[j]);
+      guess.push_back(Rational(x[j]));
+    }
+    const int count = static_cast<int>(loaded.size()), rows = problem_.rows();
+    ExactMatrix columns(rows, count), M(count, count);
+    ExactVector right(count);
+    for (int j = 0; j < count; ++j) {
+      for (int i = 0; i < rows; ++i) columns(i, j) = Along(loaded[j], problem_.A, i);
+      right[j] = -Along(loaded[j], problem_.b);
+    }
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j) M(i, j) = Along(loaded[i], columns.col(j));
+    const auto exact = SolveEquations(M, right, ExactVector(Eigen::Map<ExactVector>(guess.data(), count)));
+    if (!exact) return std::nullopt;
+    return Combined(loaded, Point(exact->begin(), exact->end()), rows);
+  }
+
+  // Forces f that push off by a margin have A f + b in the inside of K*, and f'(A f + b) next to 0; so f + z
+  // refutes rest, where A z = b. Where contacts jam there is no such margin, and nothing is found.
+  bool RefuteRest() const {
+    constexpr double kMargin = 1e-6;
+    if (std::any_of(edges_.begin(), edges_.end(), [](const ConeEdge& edge) { return edge.free; })) return false;
+    const Eigen::VectorXd x = Pushed(kMargin);
+    if (x.size() != E_.cols()) return false;
+    const Eigen::VectorXd y = E_ * x + rounded_.A.completeOrthogonalDecomposition().solve(rounded_.b);
+    if (!y.allFinite()) return false;
+    return RefutesRest(problem_, y.unaryExpr([](double value) { return Rational(value); }));
+  }
+
+ private:
+  // Empty where none are found. `margin`: of the largest b along the edges.
+  Eigen::VectorXd Pushed(double margin) const {
+    ContactProblem<double> pushing;
+    for (const ConeEdge& edge : edges_)
+      pushing.contacts.push_back(
+          {.kind = edge.free ? ContactKind::kBilateral : ContactKind::kFrictionless, .mu = 0, .slip = {}});
+    pushing.A = E_.transpose() * rounded_.A * E_;
+    pushing.b = E_.transpose() * rounded_.b;
+    pushing.b.array() -= margin * pushing.b.cwiseAbs().maxCoeff();
+    Eigen::VectorXd x = Solve(pushing, "fast", SolveOptions{}).f;
+    return x.allFinite() ? x : Eigen::VectorXd();
+  }
+
+  const ExactProblem& problem_;
+  ContactProblem<double> rounded_;
+  std::vector<ConeEdge> edges_;
+  Eigen::MatrixXd E_;
+};
+
+// The beginning of what follows, where doubles lead to it.
+struct FoundByDoubles {
+  std::optional<ExactVector> f;  // forces on some edges
+  bool refuted = false;
+};
+
+FoundByDoubles LookByDoubles(const ExactProblem& problem) {
+  FoundByDoubles found;
+  try {
+    found.refuted = AlongEdges(problem, EdgesOf::kAroundCone).RefuteRest();
+    if (!found.refuted) found.f = AlongEdges(problem, EdgesOf::kWithinCone).Forces();
+  } catch (const InputError&) {  // doubles do not hold the problem
+  }
+  return found;
+}
+
 std::optional<ExactVector> RestOf(const ExactProblem& problem) {
   constexpr int kMostRows = 60;
   if (problem.rows() > kMostRows) return std::nullopt;
   if (HasSlidingContact(problem)) return std::nullopt;
+  const FoundByDoubles found = LookByDoubles(problem);
+  if (found.refuted) return std::nullopt;
+  const auto rests = [&problem](const ExactVector& f) {
+    return !FindConeViolation(problem, f) && Accelerations(problem, f).isZero();
+  };
+  if (found.f && rests(*found.f)) return found.f;
   const auto range = DecideRange(problem.A, problem.b);
   const RangePoint* point = std::get_if<RangePoint>(&range);
   if (point == nullptr) return std::nullopt;
   const ExactVector f = -point->x;
   if (!FindConeViolation(problem, f)) return f;
+  if (found.f && RefutesRest(problem, *found.f + point->x)) return std::nullopt;
   if (IsRegular(problem.A)) return std::nullopt;
   return SearchCone(problem);
 }

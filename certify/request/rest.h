@@ -6,7 +6,8 @@
 //   f in K,  A f + b = 0
 //
 // (K: cones.h) meet Coulomb's law exactly, whatever the dimension: aN = aF = 0. They are sought for every group
-// of contacts that A couples by itself, by an exact linear program, in space over polygons within K, whose
+// of contacts that A couples by itself: doubles propose them, or a proof that there are none, which exact
+// numbers then decide; where they do not, an exact linear program does, in space over polygons within K, whose
 // corners are added where the programs say; there none may be found though there are some. A group with a
 // sliding contact is left.
 
