@@ -57,6 +57,20 @@ by apply: leq_trans (mxrankM_maxr _ _) _; rewrite mxrank_delta.
 Qed.
 End Rank.
 
+Lemma place_lt n (r : 'I_(n + n)) : (place r < n + n)%N.
+Proof.
+by rewrite /place addnn; case: (split r) => j; rewrite ?ltn_double ?ltn_Sdouble.
+Qed.
+Lemma place_inj n : injective (@place n).
+Proof.
+move=> r s; rewrite -(splitK r) -(splitK s) /place !unsplitK.
+case: (split r) => i; case: (split s) => j /=.
+- by move=> /double_inj/val_inj ->.
+- by move=> /(congr1 odd); rewrite /= !odd_double.
+- by move=> /(congr1 odd); rewrite /= !odd_double.
+- by case=> /double_inj/val_inj ->.
+Qed.
+
 Section Perturbed.
 Variables (R : realFieldType) (n : nat) (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R).
 Hypothesis sym : A^T = A.
@@ -76,7 +90,7 @@ Lemma transcendental2 (p : 'rV[R]_(n + n)) : (map_mx emb p *m beps) 0 0 = 0 -> p
 Proof.
 rewrite /Statement.beps !mulmxDr -scalemxAr !mxE => e1; apply/matrixP => i j; rewrite ord1 mxE.
 pose N := (n + n)%N; pose s := \sum_(k < n) p 0 (lshift n k).
-pose P : {poly R} := (p *m b) 0 0 *: 'X^N.+1 + (s *: 'X^N + \sum_r p 0 r *: 'X^(N.+1 - r.+2)).
+pose P : {poly R} := (p *m b) 0 0 *: 'X^N.+1 + (s *: 'X^N + \sum_r p 0 r *: 'X^(N.+1 - (place r).+2)).
 have P0 : P = 0.
   apply: pf_inj; rewrite rmorph0 -[RHS](mulr0 (X R ^+ N.+1)) -e1.
   rewrite !rmorphD rmorph_sum /= !mulrDr; congr (_ + (_ + _)).
@@ -89,16 +103,16 @@ have P0 : P = 0.
     by rewrite addr0 rmorph_sum; apply: eq_bigr => k _; rewrite col_mxEu !mxE mulr1.
   - rewrite mulr_sumr; apply: eq_bigr => k _; rewrite !mxE -mul_polyC rmorphM rmorphX /= -/(X R) -/(emb _) mulrCA;
       congr (_ * _).
-    by rewrite /Statement.eps exprVn -expfB_cond //; rewrite gt_eqF ?X_gt0 //= add0n ltnS ltn_ord.
-have jN : (j < N)%N := ltn_ord j.
-have := congr1 (fun Q : {poly R} => Q`_(N.+1 - j.+2)) P0; rewrite coef0 !coefD !coefZ !coefXn.
-have lt : (N.+1 - j.+2 < N)%N by rewrite subSS ltn_subrL /= (leq_ltn_trans _ jN).
-have -> : (N.+1 - j.+2 == N.+1)%N = false by rewrite ltn_eqF // ltnW.
+    by rewrite /Statement.eps exprVn -expfB_cond //; rewrite gt_eqF ?X_gt0 //= add0n ltnS place_lt.
+have jN : (place j < N)%N := place_lt j.
+have := congr1 (fun Q : {poly R} => Q`_(N.+1 - (place j).+2)) P0; rewrite coef0 !coefD !coefZ !coefXn.
+have lt : (N.+1 - (place j).+2 < N)%N by rewrite subSS ltn_subrL /= (leq_ltn_trans _ jN).
+have -> : (N.+1 - (place j).+2 == N.+1)%N = false by rewrite ltn_eqF // ltnW.
 rewrite (ltn_eqF lt) !mulr0 !add0r coef_sum (bigD1 j) //= coefZ coefXn eqxx mulr1 big1 ?addr0 // => k kj.
-rewrite coefZ coefXn; have -> : (N.+1 - j.+2 == N.+1 - k.+2)%N = false; last by rewrite mulr0.
-apply/negbTE; apply: contra kj => /eqP e2; apply/eqP/val_inj => /=.
-have : (N - (N - j.+1) = N - (N - k.+1))%N by move: e2; rewrite !subSS => ->.
-by rewrite !subKn ?ltn_ord // => -[].
+rewrite coefZ coefXn; have -> : (N.+1 - (place j).+2 == N.+1 - (place k).+2)%N = false; last by rewrite mulr0.
+apply/negbTE; apply: contra kj => /eqP e2; apply/eqP/(@place_inj n).
+have : (N - (N - (place j).+1) = N - (N - (place k).+1))%N by move: e2; rewrite !subSS => ->.
+by rewrite !subKn ?place_lt // => -[].
 Qed.
 Lemma generic_eps : nondegenerate AF beps muF.
 Proof.
@@ -215,7 +229,7 @@ have S0 : 0 < S.
   by have := proj1 (vK j); rewrite xz mulr0 normr_le0 => /eqP.
 pose C := 1 + \sum_t mu t; have C0 : 0 < C by rewrite ltr_paddr ?ltr01 // sumr_ge0.
 have e0 := eps_gt0 R; have e1 : eps <= 1 by have := eps_small (@ltr01 R); rewrite rmorph1 => /ltW.
-have le : `|dotp v (\col_r eps ^+ r.+2)| <= eps ^+ 2 * (emb C * S).
+have le : `|dotp v (\col_r eps ^+ (place r).+2)| <= eps ^+ 2 * (emb C * S).
   apply: le_trans (ler_norm_sum _ _ _) _.
   apply: le_trans (_ : \sum_r `|v r 0| * eps ^+ 2 <= _).
     apply: ler_sum => r _; rewrite mxE normrM ler_wpmul2l // normrX (gtr0_norm e0).

@@ -193,7 +193,9 @@ Definition drives_to_a_solution := match first A b with
   end.
 End Nondegenerate.
 
-(* ---- Ties: b(eps) = b + eps e_N + (eps^2, eps^3, ...) over R(X), eps = 1/X ---- *)
+(* ---- Ties: b(eps) = b + eps e_N + (eps^2, eps^3, ...) over R(X), eps = 1/X, rows contact by contact ---- *)
+(* the place of a row in N1 F1 N2 F2 ... *)
+Definition place n (r : 'I_(n + n)) : nat := match split r with inl j => j.*2 | inr j => j.*2.+1 end.
 Section Perturbed.
 Variables (R : realFieldType) (n : nat).
 Notation F := (ratfun R).
@@ -203,7 +205,7 @@ Definition qF k (q : 'cV[R]_k) : 'cV[F]_k := map_mx (@emb R) q.
 Variables (A : 'M[R]_(n + n)) (b : 'cV[R]_(n + n)) (mu : 'I_n -> R).
 Definition muF i : F := @emb R (mu i).
 Definition eN : 'cV[F]_(n + n) := col_mx (const_mx 1) 0.
-Definition beps : 'cV[F]_(n + n) := qF b + (eps *: eN + \col_r eps ^+ r.+2).
+Definition beps : 'cV[F]_(n + n) := qF b + (eps *: eN + \col_r eps ^+ (place r).+2).
 
 (* x is infinitely near r *)
 Definition tiny (z : F) := forall c : R, 0 < c -> `|z| < emb c.

@@ -121,7 +121,7 @@ Proof.
 rewrite /eN mxE; case: (split r) => j; rewrite mxE; [by exists 1; exact: st_1 | by exists 0; exact: st_0].
 Qed.
 Lemma near_beps (bb : 'cV[R]_(n + n)) r :
-  st ((qF bb + (eps R *: eN R n + \col_r eps R ^+ (nat_of_ord r).+2)) r 0) (bb r 0).
+  st ((qF bb + (eps R *: eN R n + \col_r eps R ^+ (place r).+2)) r 0) (bb r 0).
 Proof.
 rewrite mxE [X in st (_ + X)]mxE [X in st (X + _)]mxE [X in st (_ + (X + _))]mxE [X in st (_ + (_ + X))]mxE.
 by have [s hs] := near_eN r; apply: st_near3; [exact: st_epsM hs | exact: st_eps].

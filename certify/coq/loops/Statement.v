@@ -464,6 +464,10 @@ Definition loops_under_every_policy n (p : problem rationals) :=
   well_formed p /\ symmetric n (A p) /\ positive_definite n (A p) /\ (exists g, solution p g) /\
   (forall pol, forall k, exists x, drives p pol k = Going x /\ ~ solution p (f (point_of x))).
 Definition headline_loops := loops_under_every_policy 4 headline.
+(* The same, under these policies. *)
+Definition loops_under_policies policies n (p : problem rationals) :=
+  well_formed p /\ symmetric n (A p) /\ positive_definite n (A p) /\ (exists g, solution p g) /\
+  (forall pol, In pol policies -> forall k, exists x, drives p pol k = Going x /\ ~ solution p (f (point_of x))).
 
 Definition policies_complete := forall pol, In pol all_policies.
 Definition policies_counted := length all_policies = 1536%nat /\ NoDup all_policies.
