@@ -10,6 +10,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/claims/condition.h"
+#include "certify/claims/coq_text.h"
 #include "certify/claims/robust.h"
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
@@ -31,6 +32,7 @@ struct CertifyOptions : WantedClaim {
   bool all = false;
   bool safe = false;
   bool robust = false;
+  bool coq = false;
   bool json = false;
 };
 
@@ -271,18 +273,21 @@ int RunCertify(const CertifyOptions& o) {
   if (o.robust && (o.all || o.safe || !o.output.empty()))
     throw InputError(
         "certify: found --robust with --all, --safe or -o, expected it alone: it writes no certificate");
+  if (o.coq && (o.all || o.safe || o.robust))
+    throw InputError("certify: found --coq with --all, --safe or --robust, expected it with --claim");
   const ProblemFile file = ReadProblem(o.file);
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
   ProgressBar bar;
   WantedClaim wanted = o;
-  wanted.factors = file.factors ? &*file.factors : nullptr;
+  wanted.factors = file.factors && !o.coq ? &*file.factors : nullptr;
   const Json certificate = CertificateOf(wanted, file.problem, o.file, Shown(bar));
   bar.Clear();
   const bool certified = certificate.is_object();
   if (certified) RequireAffordable(certificate, o.file);
-  if (certified) WriteText(o.output, JsonText(certificate, 1) + "\n");
+  if (certified)
+    WriteText(o.output, o.coq ? CoqText(certificate, file.problem, o.file) : JsonText(certificate, 1) + "\n");
   const Json claim = certified ? certificate["claim"] : Json("undecided");
   // With the certificate itself on standard output, nothing else may stand there.
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
@@ -374,6 +379,9 @@ const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
       .Details(
           "A lower bound, proved over intervals; of a problem that carries its scene also how far all that "
           "the scene is built of may be off at once. Exit 3 unless each is proved. Writes no certificate");
+  verb.Flag("--coq", o.coq, "write a file for Coq, which proves the claim anew, in place of the certificate")
+      .Details(fmt::format("Of {}. After ./run prove: coqc -R build/coq Stiction CERT",
+                           fmt::join(ClaimsForCoq(), ", ")));
   AddPolicyOption(verb, o.policy, Grid::kAllowed);
   verb.Prints(o.json,
               "what was certified; with --all, all solutions; with --safe, safety; with --robust, radii; the "

@@ -1,29 +1,29 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Written by make.py from corpus/certificates/counterexample.json.
-   It proves that the published algorithm never ends on the_problem under the policies listed, nor ever
-   stands at a solution, though A is definite and there is one. *)
-From Coq Require Import QArith ZArith List Bool Arith.
-From Stiction.loops Require Import Statement Loop Laws.
+(* Written by `stiction certify --coq`. It proves: the published algorithm never ends under these policies, nor ever
+   stands at a solution, though A is symmetric positive definite, and there is a solution.
+   Problem sha256:04f2904567995d0e02950d43f5ad0cb7014612ba6e2ac81fe6734eeb796046ed *)
+From Coq Require Import QArith List.
+From Stiction.loops Require Import Statement Loop Counterexample.
 Import ListNotations.
 Local Open Scope Q_scope.
 
 Definition the_problem : problem rationals := Problem
-    [[(3 # 1); (-4 # 1); (2 # 1); (0 # 1)];
-     [(-4 # 1); (7 # 1); (-4 # 1); (1 # 1)];
-     [(2 # 1); (-4 # 1); (7 # 1); (-6 # 1)];
-     [(0 # 1); (1 # 1); (-6 # 1); (7 # 1)]]
-    [(-1 # 1); (0 # 1); (0 # 1); (-2 # 1)]
-    [(1 # 1); (1 # 1)].
+    [[3; -4; 2; 0];
+     [-4; 7; -4; 1];
+     [2; -4; 7; -6];
+     [0; 1; -6; 7]]
+    [-1; 0; 0; -2]
+    [1; 1].
 
 (* A = L D L' *)
-Definition L := [[(1 # 1); (0 # 1); (0 # 1); (0 # 1)];
-     [(-4 # 3); (1 # 1); (0 # 1); (0 # 1)];
-     [(2 # 3); (-4 # 5); (1 # 1); (0 # 1)];
-     [(0 # 1); (3 # 5); (-26 # 23); (1 # 1)]].
-Definition D := [(3 # 1); (5 # 3); (23 # 5); (12 # 23)].
+Definition L : list (list Q) := [[1; 0; 0; 0];
+     [-4 # 3; 1; 0; 0];
+     [2 # 3; -4 # 5; 1; 0];
+     [0; 3 # 5; -26 # 23; 1]].
+Definition D : list Q := [3; 5 # 3; 23 # 5; 12 # 23].
 
 (* a solution *)
-Definition forces : list Q := [(1 # 3); (1 # 3); (2 # 3); (2 # 3)].
+Definition forces : list Q := [1 # 3; 1 # 3; 2 # 3; 2 # 3].
 
 (* (k, (start, period)) for k policies in a row, in the order of all_policies *)
 Definition table : list (nat * nat) := expand [
@@ -104,40 +104,16 @@ Definition table : list (nat * nat) := expand [
   (1, (2, 5)); (1, (1, 5)); (1, (2, 4)); (1, (1, 4)); (1, (2, 4)); (1, (1, 4)); (1, (2, 4));
   (1, (1, 4)); (1, (2, 4)); (1, (1, 4))]%nat.
 
-Lemma table_checked : table_holds the_problem all_policies table = true.
+Lemma checked : check_counterexample the_problem L D forces all_policies table = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-(* The run under each policy: the state after k drives exists for all k. *)
-Theorem never_ends : forall pol, forall k, exists x, drives the_problem pol k = Going x.
-Proof. intro pol. exact (table_never_ends _ _ _ table_checked pol (all_policies_complete pol)). Qed.
+Theorem counterexample : loops_under_every_policy 4 the_problem.
+Proof. exact (every_policy_loops _ _ _ _ _ checked). Qed.
 
-Lemma is_well_formed : well_formed the_problem.
-Proof. apply check_well_formed_sound. vm_compute. reflexivity. Qed.
-
-(* No state between two drives is a solution. *)
-Theorem never_at_a_solution : forall pol, forall k x, drives the_problem pol k = Going x ->
-  ~ solution the_problem (f (point_of x)).
-Proof.
-  intro pol. intros k x Hx S. apply (obeys_iff_solution _ _ is_well_formed) in S.
-  pose proof (table_never_obeys _ _ _ table_checked pol (all_policies_complete pol) k x Hx). congruence.
-Qed.
-
-Theorem counterexample :
-  loops_under_every_policy 4 the_problem.
-Proof.
-  unfold loops_under_every_policy. split; [exact is_well_formed|].
-  split; [apply check_symmetric_sound; vm_compute; reflexivity|].
-  split; [apply (check_definite_sound _ _ L D); vm_compute; reflexivity|].
-  split; [exists forces; apply (obeys_iff_solution _ _ is_well_formed); vm_compute; reflexivity|].
-  intro pol. intro k. destruct (never_ends pol k) as [x Hx]. exists x.
-  split; [exact Hx | exact (never_at_a_solution pol k x Hx)].
-Qed.
-
-(* The starts and periods, and how many policies have them:
-   the first state at the top of the main loop that recurs. *)
+(* The first state at the top of the main loop that recurs, and after how many drives. *)
 Theorem starts_and_periods : forall pol s period, In (pol, (s, period)) (combine all_policies table) ->
   cycles the_problem pol s period.
-Proof. exact (table_cycles _ _ _ table_checked). Qed.
+Proof. exact (policies_cycle _ _ _ _ _ _ checked). Qed.
 
 Definition count s period := length (filter (fun x => Nat.eqb (fst x) s && Nat.eqb (snd x) period) table).
 Theorem counts : length table = 1536%nat /\
@@ -149,3 +125,4 @@ Theorem counts : length table = 1536%nat /\
   count 2 4 = 96%nat /\
   count 3 5 = 96%nat.
 Proof. repeat split; vm_compute; reflexivity. Qed.
+Print Assumptions counterexample.
