@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compiles the proofs, says in words what they prove, and refuses what is not proved.
 
-    prove.py [--build DIR] [--jobs N] [--family] [--compare [--policies N]]
+    prove.py [--build DIR] [--jobs N] [--family] [--compare] [--program PROGRAM [--every]]
     prove.py --scan | --accept
 
 Refused are: a word that leaves something unproved (Admitted, Axiom, a Variable outside of a section, a switched-off
@@ -11,8 +11,9 @@ that a reader must trust and that has changed since it was read (digests.json). 
 without Coq. --accept writes the digests, after somebody has read the files anew.
 
 Compiled is what has changed, in a copy of the sources. --family adds the family at mu = 1 under every policy (minutes
-of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py. Before it answers,
-this program refuses a few false proofs of its own, to see that it can.
+of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py; --program compiles
+what that stiction writes of the corpus (corpus.py), with --every under every policy. Before it answers, this program
+refuses a few false proofs of its own, to see that it can.
 
 Exit: 0 if all is proved, 1 if not, 2 if Coq is missing.
 """
@@ -29,6 +30,9 @@ import sys
 import tempfile
 import textwrap
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+import corpus
 
 HERE = Path(__file__).resolve().parent
 
@@ -92,6 +96,10 @@ THEOREMS = [
      "... A is symmetric in the one if it is in the other, ..."),
     ("loops.SameLaw.same_definite", None, {},
      "... and positive definite, over the rationals of mathcomp."),
+    ("loops.Counterexample.every_policy_loops", None, {},
+     "So it is wherever Coq's check of a table of starts and periods, L, D and forces says so, ..."),
+    ("loops.Counterexample.policies_loop", None, {},
+     "... and under the policies of the table alone."),
     ("loops.Loop.all_policies_complete", "loops.Statement.policies_complete", {},
      "The list of policies has every value of the nine switches, ..."),
     ("loops.Loop.all_policies_counted", "loops.Statement.policies_counted", {},
@@ -100,6 +108,16 @@ THEOREMS = [
      "A run that never ends, and on which no state stands twice: endless/without-repetition.json, resume=round."),
     ("loops.Family.loops_near_K", "loops.Statement.paper_loops_near_K", {},
      "At mu = 1 the reading `paper` loops at condition numbers as near as one likes to 3 + 2 sqrt(2)."),
+    ("claims.Claims.solution_holds", None, {},
+     "Plane and space, contacts of every kind: forces that Coq's check takes are a solution."),
+    ("claims.Claims.no_solution_holds", None, {},
+     "Farkas vectors that it takes refute every solution, over any ordered field."),
+    ("claims.Claims.psd_holds", None, {},
+     "A = L D L' that it takes: A is symmetric and positive semidefinite."),
+    ("claims.Claims.H_holds", None, {},
+     "A vector y that it takes: (H) holds for b."),
+    ("claims.Tests.planar_law", None, {},
+     "The law of these claims is, at a static contact of the plane, that of existence/Law.v."),
 ]
 FAMILY = ("loops.FamilyAll.loops_near_K_under_every_policy", "loops.Statement.every_policy_loops_near_K", {},
           "So does every policy.")
@@ -108,6 +126,7 @@ FOLDERS = {
     "existence": "Every problem with static friction has a solution",
     "driving": "Complete driving ends",
     "loops": "The published algorithm loops",
+    "claims": "Certificates about A, b and forces",
 }
 
 # What a reader must trust: definitions and statements. A change is refused until somebody has read the file.
@@ -401,13 +420,15 @@ def compare(build, repository, policies):
         raise Failed("compare.py does not notice a wrong check_runs.py")
 
 
-def headline_is_current(sources, repository):
-    """Headline.v is what make.py writes for the certificate of the corpus."""
-    certificate = "corpus/certificates/counterexample.json"
-    result = subprocess.run([sys.executable, str(sources / "loops" / "make.py"), str(repository / certificate)],
-                            stdout=subprocess.PIPE, text=True)
-    if result.returncode or result.stdout != (sources / "loops/Headline.v").read_text():
-        raise Failed(f"loops/Headline.v is not what loops/make.py writes for {certificate}")
+def tell_corpus(build, program, repository, every):
+    """What certify --coq writes of the corpus is proved, and what is altered is not."""
+    try:
+        counts = corpus.compile_corpus(build, program, repository, every)
+        altered = corpus.refuses_altered(build, program, repository, every)
+    except RuntimeError as error:
+        raise Failed(str(error))
+    words = ", ".join(f"{count} of {claim}" for claim, count in sorted(counts.items()))
+    print(f"Of the corpus Coq takes what certify --coq writes: {words}; no axioms. Altered and refused: {altered}.\n")
 
 
 def main():
@@ -418,6 +439,8 @@ def main():
     parser.add_argument("--family", action="store_true", help="also the family at mu = 1 under every policy")
     parser.add_argument("--compare", action="store_true", help="also the Coq function beside certify/check_runs.py")
     parser.add_argument("--policies", type=int, default=5, help="of each problem that --compare runs")
+    parser.add_argument("--program", type=Path, help="also what this stiction writes of the corpus")
+    parser.add_argument("--every", action="store_true", help="of --program: loops under every policy")
     parser.add_argument("--scan", action="store_true", help="only look at the sources")
     parser.add_argument("--accept", action="store_true", help="write the digests of what a reader must trust")
     parser.add_argument("--only", help=argparse.SUPPRESS)  # of the theorems, those of this folder: for tests
@@ -435,7 +458,6 @@ def main():
         if o.scan:
             print("prove: nothing in the sources leaves anything unproved")
             return 0
-        headline_is_current(o.sources, repository)
         if not shutil.which("coqc"):
             print("prove: coqc is not installed", file=sys.stderr)
             return 2
@@ -450,6 +472,8 @@ def main():
         build.compile(roots)
         answers = check(build, theorems)
         tell(answers)
+        if o.program:
+            tell_corpus(build, o.program.resolve(), repository, o.every)
         if o.compare:
             compare(build, repository, o.policies)
     except Failed as error:

@@ -1,16 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the extracted Coq function with certify/check_runs.py, step by step, in exact numbers.
+"""Compares the extracted Coq function, step by step and in exact numbers, with certify/check_runs.py or with the C++.
 
     compare.py RUN [--policies N | --all] [--drives K] [--seed S] PROBLEM...
+    compare.py RUN --program STICTION [...] [--problems N] [PROBLEM...]
 
 RUN: the program of run.ml, which `./run prove --compare` makes. Of each problem: N random policies, K drives at
 most. Compared: every pivot (drive, driven, goal, length, limiting variable, from, to), after every drive all sets,
-forces, accelerations and what resume=round remembers, and how the run ends. A run that check_runs.py ends in a
-cycle is compared up to there. Exit 1 if anything differs.
+forces, accelerations and what resume=round remembers, and how the run ends. A run that ends in a cycle is compared up
+to there, its start and period, too.
+
+With --program it is the C++, `replay --json`: every pivot, how the run ends, and there all forces and accelerations;
+of the files, and of N random problems of one to four contacts, each under one random policy. A fourth of these are
+near files, where loops are; the others have small integers, so that ties are frequent, and A definite, semidefinite
+or of no symmetry. Exit 1 if anything differs.
 """
 import argparse
+import concurrent.futures
 import itertools
+import json
+import os
 import random
 import subprocess
 import sys
@@ -21,13 +30,15 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 parser = argparse.ArgumentParser()
 parser.add_argument("run")
-parser.add_argument("problems", nargs="+")
+parser.add_argument("files", nargs="*")
+parser.add_argument("--program")
+parser.add_argument("--problems", type=int, default=0)
 parser.add_argument("--policies", type=int, default=20)
 parser.add_argument("--all", action="store_true")
 parser.add_argument("--drives", type=int, default=40)
 parser.add_argument("--seed", type=int, default=1)
 parser.add_argument("--flaw", action="store_true", help="a wrong check_runs.py, to see that this program notices")
-o = parser.parse_args()
+o = parser.parse_intermixed_args()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 import certificate_reader  # noqa: E402
 import check_runs  # noqa: E402
@@ -78,42 +89,140 @@ def parse(text):
             made.append(("end", rest))
 
 
-random.seed(o.seed)
-ends, pivots, states, differ, looked, left_out = Counter(), 0, 0, 0, 0, 0
-for path in o.problems:
+# ---- Problems: A, b, mu ----
+
+def of_file(path):
+    """Or None, where contacts are not static, or not in the plane."""
     value = certificate_reader.load(path)
     value = value.get("problem", value)
     problem = certificate_reader.read_problem(value, "$", certificate_reader.exact_or_double,
                                               ("name", "scene", "origin", "expect"))
-    if problem.dimension != 2 or any(c.kind != "static" for c in problem.contacts):
-        left_out += 1  # not static contacts of the plane
-        continue
-    numbers = range(1536) if o.all else sorted(random.sample(range(1536), o.policies))
+    return problem if problem.dimension == 2 and all(c.kind == "static" for c in problem.contacts) else None
+
+
+def near(problem, draw):
+    """The problem with one number of A and one of b moved: loops often stay loops."""
+    A, b = [list(row) for row in problem.A], list(problem.b)
+    i, j, k = (draw.randrange(len(b)) for _ in range(3))
+    by = [Fraction(draw.choice([-1, 1]), draw.choice([1, 2, 4, 8])) for _ in range(2)]
+    A[i][j] += by[0]
+    A[j][i] = A[i][j]
+    b[k] += by[1]
+    return problem._replace(A=A, b=b)
+
+
+def drawn(number, bases):
+    """A random problem, the same for the same seed: every fourth near one of the files."""
+    draw = random.Random(f"{o.seed} {number}")
+    if bases and number % 4 == 0:
+        return near(draw.choice(bases), draw)
+    contacts = [certificate_reader.Contact("static", Fraction(draw.choice(["0", "1/4", "1/2", "1", "1", "2", "5"])), ())
+                for _ in range(draw.choice([1, 2, 2, 3, 3, 4]))]
+    n = 2 * len(contacts)
+    kind = draw.choice(["definite", "definite", "semidefinite", "asymmetric"])
+    M = [[draw.randint(-3, 3) for _ in range(max(1, n - (kind == "semidefinite") - draw.randint(0, 1)))]
+         for _ in range(n)]
+    A = [[Fraction(sum(x * y for x, y in zip(u, v))) for v in M] for u in M]
+    for i in range(n):
+        A[i][i] += kind != "semidefinite"
+        if kind == "asymmetric":
+            A[i][draw.randrange(n)] += draw.randint(-1, 1)
+    b = [Fraction(draw.randint(-3, 3 if row % 2 else 0)) for row in range(n)]
+    if kind == "semidefinite" and draw.random() < 0.5:  # in range(A)
+        v = [draw.randint(-1, 1) for _ in range(n)]
+        b = [sum(x * y for x, y in zip(row, v)) for row in A]
+    return certificate_reader.Problem(2, contacts, A, b)
+
+
+# ---- What the others do: the lines of a run, how it ends, and whether they stop where a state recurs ----
+
+def by_check_runs(problem, policy):
+    run = Recorded(check_runs.Rows(problem), policy, lambda steps: None)
+    outcome = run.compute_forces().outcome
+    return run.lines or [], outcome, None
+
+
+def by_program(problem, policy):
+    text = {"A": [[str(x) for x in row] for row in problem.A], "b": [str(x) for x in problem.b],
+            "mu": [str(c.mu) for c in problem.contacts]}
+    done = subprocess.run([o.program, "replay", "-", "--json", "--max-drives", str(o.drives), "--policy", name(policy)],
+                          input=json.dumps(text), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if not done.stdout:
+        raise RuntimeError(f"replay ends with {done.returncode}: {done.stderr}{json.dumps(text)}")
+    said = json.loads(done.stdout)
+    if o.flaw and said["pivots"]:
+        said["pivots"][-1]["step"] = "7/11"
+    lines = [("pivot", p["drive"], p["driven"], p["goal"], Fraction(p["step"]), p["limiting"], p["from"], p["to"])
+             for p in said["pivots"]]
+    return lines, said["outcome"], said
+
+
+def agree(want, outcome, said, got):
+    """Whether the Coq function's lines are those."""
+    if said is None:
+        return got[:len(want)] == want if outcome == "cycle" else got == want + [("end", outcome)]
+    pivots = [line for line in got if line[0] == "pivot"]
+    states = [line for line in got if line[0] == "state"]
+    if outcome == "cycle":
+        drives = said["start"] + said["period"]
+        pivots, end = [line for line in pivots if line[1] <= drives], states[drives - 1]
+    elif outcome == "limit":
+        pivots, end = [line for line in pivots if line[1] <= o.drives], None
+    else:
+        end = states[-1] if states and outcome == "solved" else None
+        if got[-1] != ("end", outcome):
+            return False
+    numbers = tuple(tuple(Fraction(x) for x in said[key]) for key in "fa") if end else None
+    return pivots == want and (end is None or end[2:4] == numbers)
+
+
+def coq(lines):
+    done = subprocess.run([o.run], input="\n".join(lines) + "\n", stdout=subprocess.PIPE, text=True, check=True)
+    return list(parse(done.stdout))
+
+
+def compared(task):
+    """(policy, outcome, pivots, states, what differs) of every policy of a problem."""
+    place, problem, numbers = task
     lines = [f"problem {len(problem.b)}", *(" ".join(map(str, row)) for row in problem.A),
              " ".join(map(str, problem.b)), " ".join(str(c.mu) for c in problem.contacts)]
-    lines += [f"policy {i} {o.drives}" for i in numbers]
-    expected = []
-    for i in numbers:
-        run = Recorded(check_runs.Rows(problem), GRID[i], lambda steps: None)
-        outcome = run.compute_forces().outcome
-        expected.append((run.lines or [], outcome))
-    out = subprocess.run([o.run], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True).stdout
-    found = list(parse(out))
+    found = coq(lines + [f"policy {i} {o.drives}" for i in numbers])
     assert len(found) == len(numbers)
-    for i, (want, outcome), got in zip(numbers, expected, found):
-        looked += 1
-        ends[outcome] += 1
-        if outcome == "cycle":
-            same = got[:len(want)] == want
-        else:
-            same = got == want + [("end", outcome)]
-        pivots += sum(x[0] == "pivot" for x in want)
-        states += sum(x[0] == "state" for x in want)
-        if not same:
-            differ += 1
-            if differ <= 5:
-                k = next((k for k, (x, y) in enumerate(zip(want, got)) if x != y), min(len(want), len(got)))
-                print(path, name(GRID[i]), outcome, "\n  check_runs", want[k:k + 1], "\n  Coq       ", got[k:k + 1])
-print(f"{len(o.problems) - left_out} problems of static contacts of the plane, {looked} runs, {pivots} pivots, "
-      f"{states} states; ends {dict(ends)}; differ: {differ}")
+    rows = []
+    for i, got in zip(numbers, found):
+        want, outcome, said = (by_program if o.program else by_check_runs)(problem, GRID[i])
+        count = Counter(line[0] for line in (got if said else want))
+        what = None
+        if not agree(want, outcome, said, got):
+            other = [line for line in got if line[0] == "pivot"] if said else got
+            k = next((k for k, (x, y) in enumerate(zip(want, other)) if x != y), min(len(want), len(other)))
+            what = f"{place} {name(GRID[i])} {outcome}\n  others {want[k:k + 1]}\n  Coq    {other[k:k + 1]}"
+        rows.append((outcome, count["pivot"], count["state"], what))
+    return rows
+
+
+def tasks():
+    draw, bases = random.Random(o.seed), []
+    for path in o.files:
+        problem = of_file(path)
+        if problem:
+            bases += [problem] if len(problem.contacts) <= 4 else []
+            yield path, problem, range(1536) if o.all else sorted(draw.sample(range(1536), o.policies))
+    for k in range(o.problems):
+        yield f"random problem {k} of seed {o.seed}", drawn(k, bases), [draw.randrange(1536)]
+
+
+ends, pivots, states, problems, differ = Counter(), 0, 0, 0, 0
+with concurrent.futures.ThreadPoolExecutor(os.cpu_count() if o.program else 1) as pool:
+    for rows in pool.map(compared, tasks()):
+        problems += 1
+        for outcome, pivot, state, what in rows:
+            ends[outcome] += 1
+            pivots, states = pivots + pivot, states + state
+            if what:
+                differ += 1
+                if differ <= 5:
+                    print(what)
+print(f"{problems} problems of static contacts of the plane, {sum(ends.values())} runs, {pivots} pivots, {states} states; "
+      f"ends {dict(sorted(ends.items()))}; differ: {differ}")
 sys.exit(differ > 0)

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `stiction certify --coq` writes of the corpus, compiled; for prove.py.
+
+Of every problem file: whether there is a solution (in space by (21), (22)), psd, h, and in the plane a loop of the
+published algorithm: under `paper`, or with `every` under all policies at once, where some cycle. What a problem has no
+certificate of is passed over. Coq is called once for many files, each a module of its own, since loading the library
+takes longer than most proofs. Then some certificates are altered, and Coq must refuse them.
+"""
+import concurrent.futures
+import re
+import subprocess
+from collections import Counter
+
+FOLDERS = ["corpus", "corpus/sliding", "corpus/endless", "corpus/space", "corpus/space/critical"]
+CLAIMS = [["--claim", "existence", "--law", "baraff"], ["--claim", "psd"], ["--claim", "h"]]
+CLOSED = "Closed under the global context"
+
+# A file of the corpus, what is asked of it, a text of what is written then, and what takes its place: Coq refuses that.
+ALTERED = [
+    ("corpus/two-contact-cycle.json", [], "Definition forces : list Q := [1;", "Definition forces : list Q := [2;"),
+    ("corpus/two-contact-cycle.json", ["--claim", "psd"], "18 # 29]", "17 # 29]"),
+    ("corpus/no-solution-scripted-wedge.json", [], "([Break], [1; 0])", "([Break], [0; 1])"),
+    ("corpus/two-contact-cycle.json", ["--claim", "h"], "Definition y : list Q := [", "Definition y : list Q := [-9; "),
+    ("corpus/two-contact-cycle.json", ["--claim", "counterexample"], "(1, (3, 4))", "(1, (2, 4))"),
+]
+
+
+def written(program, repository, path, words):
+    """The text that certify --coq writes, or nothing where the problem has no such certificate."""
+    done = subprocess.run([program, "certify", path, *words, "--coq", "-o", "-"], cwd=repository,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode not in (0, 2, 3):
+        raise RuntimeError(f"{path}: certify {' '.join(words)} ends with {done.returncode}: {done.stderr}")
+    return done.stdout if done.returncode == 0 else ""
+
+
+def batches(texts, number):
+    """(number, text) in so many parts, the longest texts first."""
+    parts = [[] for _ in range(number)]
+    for k, text in enumerate(sorted(texts, key=lambda row: -len(row[1]))):
+        parts[k % number].append(text)
+    return [part for part in parts if part]
+
+
+def as_modules(texts):
+    return "".join(f"(* {name} *)\nModule File{k}.\n{text}End File{k}.\n" for k, (name, text) in enumerate(texts))
+
+
+def compile_batch(build, name, texts):
+    """None, or what Coq has against one of the texts."""
+    path = build.build / "corpus" / f"{name}.v"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(as_modules(texts))
+    result = build.coqc(path)
+    if result.returncode:
+        line = re.search(r"line (\d+)", result.stdout)
+        before = path.read_text().splitlines()[:int(line[1]) if line else 0]
+        at = [found[1] for found in map(re.compile(r"\(\* (corpus/.*) \*\)").fullmatch, before) if found]
+        return f"{at[-1] if at else name}: Coq refuses what certify --coq writes:\n{result.stdout}"
+    if result.stdout.count(CLOSED) != len(texts):
+        return f"{name}: rests on axioms:\n{result.stdout}"
+    return None
+
+
+def compile_corpus(build, program, repository, every):
+    """How many certificates of each claim Coq has taken; or RuntimeError that says which it has not."""
+    build.compile(["claims/Claims", "loops/Counterexample"])
+    texts, policy = [], "*" if every else "paper"
+    for folder in FOLDERS:
+        for path in sorted((repository / folder).glob("*.json")):
+            name = str(path.relative_to(repository))
+            asked = CLAIMS + ([["--claim", "counterexample", "--policy", policy]] if "space" not in name else [])
+            for words in asked:
+                text = written(program, repository, name, words)
+                if text:
+                    texts.append((f"{name} {words[1]}", text))
+    parts = batches(texts, max(build.jobs, 4 if every else 1))
+    with concurrent.futures.ThreadPoolExecutor(build.jobs) as pool:
+        said = list(pool.map(lambda row: compile_batch(build, f"Part{row[0]}", row[1]), enumerate(parts)))
+    bad = [text for text in said if text]
+    if bad or not texts:
+        raise RuntimeError("\n".join(bad) or "the corpus has no certificate for Coq")
+    return Counter(name.split()[1] for name, _ in texts)
+
+
+def refuses_altered(build, program, repository, every):
+    """Altered certificates: one of them, or all. RuntimeError for one that Coq takes."""
+    rows = ALTERED if every else ALTERED[:1]
+    for k, (path, words, old, new) in enumerate(rows):
+        text = written(program, repository, path, words)
+        if text.count(old) != 1:
+            raise RuntimeError(f"{path} {' '.join(words)}: `{old}` is not there to be altered")
+        said = compile_batch(build, f"Altered{k}", [(path, text.replace(old, new))])
+        if said is None or "refuses" not in said:
+            raise RuntimeError(f"{path} {' '.join(words)}: Coq takes an altered certificate: {said}")
+    return len(rows)
