@@ -43,7 +43,12 @@ def batches(texts, number):
 
 
 def as_modules(texts):
-    return "".join(f"(* {name} *)\nModule File{k}.\n{text}End File{k}.\n" for k, (name, text) in enumerate(texts))
+    """A file of them all, which asks once for the axioms of all claims: that takes Coq a while."""
+    asks = re.compile(r"Print Assumptions (\w+)\.\n")
+    modules = "".join(f"(* {name} *)\nModule File{k}.\n{asks.sub('', text)}End File{k}.\n"
+                      for k, (name, text) in enumerate(texts))
+    claims = ", ".join(f"File{k}.{asks.search(text)[1]}" for k, (_, text) in enumerate(texts))
+    return f"{modules}Definition all_claims := ({claims}, tt).\nPrint Assumptions all_claims.\n"
 
 
 def compile_batch(build, name, texts):
@@ -57,7 +62,7 @@ def compile_batch(build, name, texts):
         before = path.read_text().splitlines()[:int(line[1]) if line else 0]
         at = [found[1] for found in map(re.compile(r"\(\* (corpus/.*) \*\)").fullmatch, before) if found]
         return f"{at[-1] if at else name}: Coq refuses what certify --coq writes:\n{result.stdout}"
-    if result.stdout.count(CLOSED) != len(texts):
+    if CLOSED not in result.stdout:
         return f"{name}: rests on axioms:\n{result.stdout}"
     return None
 

@@ -11,8 +11,8 @@ that a reader must trust and that has changed since it was read (digests.json). 
 without Coq. --accept writes the digests, after somebody has read the files anew.
 
 Compiled is what has changed, in a copy of the sources. --family adds the family at mu = 1 under every policy (minutes
-of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py; --program compiles
-what that stiction writes of the corpus (corpus.py), with --every under every policy. Before it answers, this program
+of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py and PROGRAM; --program
+compiles what that stiction writes of the corpus (corpus.py), with --every under every policy. Before it answers, this program
 refuses a few false proofs of its own, to see that it can.
 
 Exit: 0 if all is proved, 1 if not, 2 if Coq is missing.
@@ -394,8 +394,8 @@ def self_test(version):
                 raise Failed(f"this program does not refuse what it must: false proof {number}: {said}")
 
 
-def compare(build, repository, policies):
-    """The Coq function as a program, step by step beside certify/check_runs.py."""
+def compare(build, repository, policies, program, problems):
+    """The Coq function as a program, step by step beside certify/check_runs.py, and beside the C++."""
     folder = build.build / "compare"
     folder.mkdir(exist_ok=True)
     for name in ("Extract.v", "run.ml"):
@@ -409,15 +409,18 @@ def compare(build, repository, policies):
                             stderr=subprocess.STDOUT, text=True)
     if result.returncode:
         raise Failed(f"the extracted function does not compile:\n{result.stdout}")
-    problems = sorted((repository / "corpus").glob("*.json"))
-    print("The Coq function beside certify/check_runs.py, step by step:", flush=True)
-    command = [sys.executable, str(build.sources / "loops" / "compare.py"), str(folder / "run"),
-               "--policies", str(policies), *map(str, problems)]
-    if subprocess.run(command).returncode:
-        raise Failed("the Coq function and certify/check_runs.py differ")
-    flawed = [*command[:3], "--policies", "40", "--flaw", str(repository / "corpus/two-contact-cycle.json")]
-    if subprocess.run(flawed, stdout=subprocess.DEVNULL).returncode != 1:
-        raise Failed("compare.py does not notice a wrong check_runs.py")
+    command = [sys.executable, str(build.sources / "loops" / "compare.py"), str(folder / "run")]
+    files = sorted(map(str, (repository / "corpus").glob("*.json")))
+    others = [("certify/check_runs.py", [], [])]
+    if program:
+        others.append(("the C++", ["--program", str(program)], ["--problems", str(problems)]))
+    for other, words, more in others:
+        print(f"The Coq function beside {other}, step by step:", flush=True)
+        if subprocess.run([*command, *words, *more, "--policies", str(policies), *files]).returncode:
+            raise Failed(f"the Coq function and {other} differ")
+        flawed = [*command, *words, "--policies", "40", "--flaw", str(repository / "corpus/two-contact-cycle.json")]
+        if subprocess.run(flawed, stdout=subprocess.DEVNULL).returncode != 1:
+            raise Failed(f"compare.py does not notice that {other} is wrong")
 
 
 def tell_corpus(build, program, repository, every):
@@ -437,8 +440,9 @@ def main():
     parser.add_argument("--build", type=Path, default=HERE.parents[1] / "build" / "coq")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--family", action="store_true", help="also the family at mu = 1 under every policy")
-    parser.add_argument("--compare", action="store_true", help="also the Coq function beside certify/check_runs.py")
-    parser.add_argument("--policies", type=int, default=5, help="of each problem that --compare runs")
+    parser.add_argument("--compare", action="store_true", help="also the Coq function beside check_runs.py and PROGRAM")
+    parser.add_argument("--policies", type=int, default=5, help="of each file that --compare runs")
+    parser.add_argument("--problems", type=int, default=10000, help="random ones that --compare gives to PROGRAM")
     parser.add_argument("--program", type=Path, help="also what this stiction writes of the corpus")
     parser.add_argument("--every", action="store_true", help="of --program: loops under every policy")
     parser.add_argument("--scan", action="store_true", help="only look at the sources")
@@ -475,7 +479,7 @@ def main():
         if o.program:
             tell_corpus(build, o.program.resolve(), repository, o.every)
         if o.compare:
-            compare(build, repository, o.policies)
+            compare(build, repository, o.policies, o.program and o.program.resolve(), o.problems)
     except Failed as error:
         print(f"prove: failed: {error}", file=sys.stderr)
         return 1
