@@ -12,7 +12,10 @@ import subprocess
 from collections import Counter
 
 FOLDERS = ["corpus", "corpus/sliding", "corpus/endless", "corpus/space", "corpus/space/critical"]
-CLAIMS = [["--claim", "existence", "--law", "baraff"], ["--claim", "psd"], ["--claim", "h"]]
+CLAIMS = [["--claim", "existence"], ["--claim", "psd"], ["--claim", "h"]]
+LIMITS = ["--max-drives", "200"]  # of a run: the corpus has some that never recur
+# Why certify refuses a problem that has no such certificate; anything else is an error.
+NONE = ("expected with --coq one of", "expected static", "stated for", "is not symmetric", "no checker would take")
 CLOSED = "Closed under the global context"
 
 # A file of the corpus, what is asked of it, a text of what is written then, and what takes its place: Coq refuses that.
@@ -29,7 +32,8 @@ def written(program, repository, path, words):
     """The text that certify --coq writes, or nothing where the problem has no such certificate."""
     done = subprocess.run([program, "certify", path, *words, "--coq", "-o", "-"], cwd=repository,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    if done.returncode not in (0, 2, 3):
+    reason = " ".join(done.stderr.split())
+    if done.returncode not in (0, 3) and not (done.returncode == 2 and any(why in reason for why in NONE)):
         raise RuntimeError(f"{path}: certify {' '.join(words)} ends with {done.returncode}: {done.stderr}")
     return done.stdout if done.returncode == 0 else ""
 
@@ -74,7 +78,9 @@ def compile_corpus(build, program, repository, every):
     for folder in FOLDERS:
         for path in sorted((repository / folder).glob("*.json")):
             name = str(path.relative_to(repository))
-            asked = CLAIMS + ([["--claim", "counterexample", "--policy", policy]] if "space" not in name else [])
+            in_space = "space" in folder
+            asked = [[*words, "--law", "baraff"] if in_space and "existence" in words else words for words in CLAIMS]
+            asked += [] if in_space else [["--claim", "counterexample", "--policy", policy, *LIMITS]]
             for words in asked:
                 text = written(program, repository, name, words)
                 if text:

@@ -12,8 +12,8 @@ without Coq. --accept writes the digests, after somebody has read the files anew
 
 Compiled is what has changed, in a copy of the sources. --family adds the family at mu = 1 under every policy (minutes
 of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py and PROGRAM; --program
-compiles what that stiction writes of the corpus (corpus.py), with --every under every policy. Before it answers, this program
-refuses a few false proofs of its own, to see that it can.
+compiles what that stiction writes of the corpus (corpus.py), with --every under every policy. Before it answers, this
+program refuses a few false proofs of its own, to see that it can.
 
 Exit: 0 if all is proved, 1 if not, 2 if Coq is missing.
 """
@@ -214,8 +214,8 @@ def scan(sources):
 
 
 def imports(text):
-    return [f"{m[1]}/{name}" for m in re.finditer(r"From Stiction\.(\w+) Require (?:Import |Export )?([\w\s]+?)\s*\.", text)
-            for name in m[2].split()]
+    lines = re.finditer(r"From Stiction\.(\w+) Require (?:Import |Export )?([\w\s]+?)\s*\.", text)
+    return [f"{m[1]}/{name}" for m in lines for name in m[2].split()]
 
 
 class Failed(Exception):
@@ -409,11 +409,14 @@ def compare(build, repository, policies, program, problems):
                             stderr=subprocess.STDOUT, text=True)
     if result.returncode:
         raise Failed(f"the extracted function does not compile:\n{result.stdout}")
-    command = [sys.executable, str(build.sources / "loops" / "compare.py"), str(folder / "run")]
+    command = ["/usr/bin/python3", str(build.sources / "loops" / "compare.py"), str(folder / "run")]  # has numpy
     files = sorted(map(str, (repository / "corpus").glob("*.json")))
     others = [("certify/check_runs.py", [], [])]
     if program:
-        others.append(("the C++", ["--program", str(program)], ["--problems", str(problems)]))
+        package = program.parent / "python" / "package"
+        if not list(package.glob("stiction/_stiction*.so")):
+            raise Failed(f"--compare needs {package}, which is not built: ./run python -c '' builds it")
+        others.append(("the C++", ["--package", str(package)], ["--problems", str(problems)]))
     for other, words, more in others:
         print(f"The Coq function beside {other}, step by step:", flush=True)
         if subprocess.run([*command, *words, *more, "--policies", str(policies), *files]).returncode:

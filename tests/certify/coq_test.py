@@ -53,7 +53,8 @@ class Files(unittest.TestCase):
                    "Problem sha256:")
 
     def test_every_claim_has_its_theorem(self):
-        self.holds(of_corpus("no-solution-scripted-wedge", "--coq"), "no_solution the_problem", "[Break]", "[SlipMinus]")
+        self.holds(of_corpus("no-solution-scripted-wedge", "--coq"),
+                   "no_solution the_problem", "[Break]", "[SlipMinus]")
         self.holds(of_corpus("two-contact-cycle", "--claim", "psd", "--coq"), "positive_semidefinite the_problem",
                    "Definition D : list Q := [7; 59 # 7; 58 # 59; 18 # 29]")
         self.holds(of_corpus("two-contact-cycle", "--claim", "h", "--coq"), "hypothesis_H the_problem")
@@ -77,7 +78,7 @@ class Files(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
             self.assertIn(said, done.stderr)
 
-    @unittest.skipUnless(shutil.which("coqc") and (LIBRARY / "claims/Claims.vo").is_file(), "no coqc, or no ./run prove yet")
+    @unittest.skipUnless(shutil.which("coqc") and (LIBRARY / "claims/Claims.vo").is_file(), "no coqc, or no library")
     def test_coq_takes_a_file_and_refuses_it_altered(self):
         text = of_corpus("two-contact-cycle", "--coq").stdout
         altered = text.replace("forces : list Q := [1;", "forces : list Q := [2;")

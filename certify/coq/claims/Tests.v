@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: Apache-2.0 *)
-(* Tests of claims/Statement.v: its law of a static contact in the plane, in squared lengths, is (15), (16); witnesses of
-   every claim are taken, and altered ones refused. *)
+(* Tests of claims/Statement.v: its law of a static contact in the plane, in squared lengths, is (15), (16); witnesses
+   of every claim are taken, and altered ones refused. *)
 From Coq Require Import QArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import ring.
@@ -55,7 +55,8 @@ Definition L := [:: [:: 1; 0; 0; 0]; [:: -(2 # 7); 1; 0; 0]; [:: -(6 # 7); -(19 
 Example semidefinite : check_psd two L [:: 7; 59 # 7; 58 # 59; 18 # 29] = true.
 Proof. by vm_compute. Qed.
 Example not_semidefinite : check_psd two L [:: 7; 59 # 7; 58 # 59; 17 # 29] = false /\
-  check_psd (Problem 2 [:: Static 1] [:: [:: -(1); 0]; [:: 0; 1]] [:: 0; 0]) [:: [:: 1; 0]; [:: 0; 1]] [:: -(1); 1] = false.
+  check_psd (Problem 2 [:: Static 1] [:: [:: -(1); 0]; [:: 0; 1]] [:: 0; 0])
+    [:: [:: 1; 0]; [:: 0; 1]] [:: -(1); 1] = false.
 Proof. by vm_compute. Qed.
 
 (* corpus/no-solution-scripted-wedge.json *)

@@ -3,14 +3,15 @@
 """Compares the extracted Coq function, step by step and in exact numbers, with certify/check_runs.py or with the C++.
 
     compare.py RUN [--policies N | --all] [--drives K] [--seed S] PROBLEM...
-    compare.py RUN --program STICTION [...] [--problems N] [PROBLEM...]
+    compare.py RUN --package DIR [...] [--problems N] [PROBLEM...]
 
 RUN: the program of run.ml, which `./run prove --compare` makes. Of each problem: N random policies, K drives at
 most. Compared: every pivot (drive, driven, goal, length, limiting variable, from, to), after every drive all sets,
 forces, accelerations and what resume=round remembers, and how the run ends. A run that ends in a cycle is compared up
 to there, its start and period, too.
 
-With --program it is the C++, `replay --json`: every pivot, how the run ends, and there all forces and accelerations;
+With --package, the directory of the Python package, it is the C++, whose `stiction.replay` tells every pivot and the
+forces and accelerations after it: compared are all pivots, forces and accelerations after every drive, and the end,
 of the files, and of N random problems of one to four contacts, each under one random policy. A fourth of these are
 near files, where loops are; the others have small integers, so that ties are frequent, and A definite, semidefinite
 or of no symmetry. Exit 1 if anything differs.
@@ -18,7 +19,6 @@ or of no symmetry. Exit 1 if anything differs.
 import argparse
 import concurrent.futures
 import itertools
-import json
 import os
 import random
 import subprocess
@@ -31,7 +31,7 @@ sys.dont_write_bytecode = True
 parser = argparse.ArgumentParser()
 parser.add_argument("run")
 parser.add_argument("files", nargs="*")
-parser.add_argument("--program")
+parser.add_argument("--package")
 parser.add_argument("--problems", type=int, default=0)
 parser.add_argument("--policies", type=int, default=20)
 parser.add_argument("--all", action="store_true")
@@ -42,6 +42,9 @@ o = parser.parse_intermixed_args()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 import certificate_reader  # noqa: E402
 import check_runs  # noqa: E402
+if o.package:
+    sys.path.insert(0, o.package)
+    import stiction
 
 GRID = [dict(zip(check_runs.SWITCHES, values)) for values in itertools.product(*check_runs.SWITCHES.values())]
 
@@ -143,18 +146,17 @@ def by_check_runs(problem, policy):
 
 
 def by_program(problem, policy):
-    text = {"A": [[str(x) for x in row] for row in problem.A], "b": [str(x) for x in problem.b],
-            "mu": [str(c.mu) for c in problem.contacts]}
-    done = subprocess.run([o.program, "replay", "-", "--json", "--max-drives", str(o.drives), "--policy", name(policy)],
-                          input=json.dumps(text), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    if not done.stdout:
-        raise RuntimeError(f"replay ends with {done.returncode}: {done.stderr}{json.dumps(text)}")
-    said = json.loads(done.stdout)
+    made = stiction.Problem(A=[[str(x) for x in row] for row in problem.A], b=[str(x) for x in problem.b],
+                            mu=[str(c.mu) for c in problem.contacts])
+    said = stiction.replay(made, name(policy), max_drives=o.drives).json
     if o.flaw and said["pivots"]:
         said["pivots"][-1]["step"] = "7/11"
-    lines = [("pivot", p["drive"], p["driven"], p["goal"], Fraction(p["step"]), p["limiting"], p["from"], p["to"])
-             for p in said["pivots"]]
-    return lines, said["outcome"], said
+    lines, last = [], {}
+    for p in said["pivots"]:
+        lines.append(("pivot", p["drive"], p["driven"], p["goal"], Fraction(p["step"]), p["limiting"], p["from"],
+                      p["to"]))
+        last[p["drive"]] = tuple(tuple(map(Fraction, p[key])) for key in "fa")
+    return lines, said["outcome"], {**said, "after": last}
 
 
 def drives_of(want, outcome, said):
@@ -168,20 +170,13 @@ def agree(want, outcome, said, got):
     """Whether the Coq function's lines are those."""
     if said is None:
         return got[:len(want)] == want if outcome == "cycle" else got == want + [("end", outcome)]
-    pivots = [line for line in got if line[0] == "pivot"]
     states = [line for line in got if line[0] == "state"]
-    if outcome == "cycle":
-        end = states[-1] if len(states) == said["start"] + said["period"] else None
-        if end is None:
-            return False
-    elif outcome == "limit":
-        end = None
-    else:
-        end = states[-1] if states and outcome == "solved" else None
-        if got[-1] != ("end", outcome):
-            return False
-    numbers = tuple(tuple(Fraction(x) for x in said[key]) for key in "fa") if end else None
-    return pivots == want and (end is None or end[2:4] == numbers)
+    if outcome == "cycle" and len(states) != drives_of(want, outcome, said):
+        return False
+    if outcome not in ("cycle", "limit") and got[-1] != ("end", outcome):
+        return False
+    after = {k + 1: state[2:4] for k, state in enumerate(states)}  # forces and accelerations after each drive
+    return [line for line in got if line[0] == "pivot"] == want and all(said["after"][k] == after[k] for k in after)
 
 
 def coq(lines):
@@ -194,7 +189,7 @@ def compared(task):
     place, problem, numbers = task
     lines = [f"problem {len(problem.b)}", *(" ".join(map(str, row)) for row in problem.A),
              " ".join(map(str, problem.b)), " ".join(str(c.mu) for c in problem.contacts)]
-    expected = [(by_program if o.program else by_check_runs)(problem, GRID[i]) for i in numbers]
+    expected = [(by_program if o.package else by_check_runs)(problem, GRID[i]) for i in numbers]
     found = coq(lines + [f"policy {i} {drives_of(*other)}" for i, other in zip(numbers, expected)])
     assert len(found) == len(numbers)
     rows = []
@@ -221,7 +216,7 @@ def tasks():
 
 
 ends, pivots, states, problems, differ = Counter(), 0, 0, 0, 0
-with concurrent.futures.ThreadPoolExecutor(os.cpu_count() if o.program else 1) as pool:
+with concurrent.futures.ThreadPoolExecutor(os.cpu_count() if o.package else 1) as pool:
     for rows in pool.map(compared, tasks()):
         problems += 1
         for outcome, pivot, state, what in rows:
@@ -231,6 +226,6 @@ with concurrent.futures.ThreadPoolExecutor(os.cpu_count() if o.program else 1) a
                 differ += 1
                 if differ <= 5:
                     print(what)
-print(f"{problems} problems of static contacts of the plane, {sum(ends.values())} runs, {pivots} pivots, {states} states; "
-      f"ends {dict(sorted(ends.items()))}; differ: {differ}")
+print(f"{problems} problems of static contacts of the plane, {sum(ends.values())} runs, {pivots} pivots, {states} "
+      f"states; ends {dict(sorted(ends.items()))}; differ: {differ}")
 sys.exit(differ > 0)
