@@ -13,19 +13,19 @@ Import GRing.Theory Num.Theory Order.TTheory.
 Local Open Scope ring_scope.
 Delimit Scope Z_scope with coq_Z. Delimit Scope Q_scope with coq_Q.   (* mathcomp has taken %Z and %Q *)
 
+(* ---- (15) and (16) at one contact ---- *)
 Section Numbers.
 Variable R : realFieldType.
-(* ---- (15) and (16) at one contact ---- *)
 Theorem same_law m fN fF aN aF :
   Statement.law m fN fF aN aF <-> Law.law (of_Q R m) (of_Q R fN) (of_Q R fF) (of_Q R aN) (of_Q R aF).
 Proof.
-have ge0 x : (0 <= x)%coq_Q <-> 0 <= of_Q x by rewrite -of_Q0; split=> /of_Q_le.
-have le0 x : (x <= 0)%coq_Q <-> of_Q x <= 0 by rewrite -of_Q0; split=> /of_Q_le.
-have eq0 x : (x == 0)%coq_Q <-> of_Q x = 0 by rewrite -of_Q0; split=> /of_Q_eq.
+have ge0 x : (0 <= x)%coq_Q <-> 0 <= of_Q R x by rewrite -(of_Q0 R); split=> /(of_Q_le R).
+have le0 x : (x <= 0)%coq_Q <-> of_Q R x <= 0 by rewrite -(of_Q0 R); split=> /(of_Q_le R).
+have eq0 x : (x == 0)%coq_Q <-> of_Q R x = 0 by rewrite -(of_Q0 R); split=> /(of_Q_eq R).
 rewrite /Statement.law /Law.law /Law.normal_conditions -of_Q_abs -!of_QM -of_QN -of_QD -of_QM.
 split=> [[[h1 [h2 h3]] [h4 [h5 h6]]]|[[h1 h2 h3] [h4 h5 h6]]].
-  by split; split; by [apply/ge0 | apply/eq0 | apply/of_Q_le | apply/le0].
-by do !split; by [apply/ge0 | apply/eq0 | apply/of_Q_le | apply/le0].
+  by split; split; by [apply/ge0 | apply/eq0 | apply/(of_Q_le R) | apply/le0].
+by do !split; by [apply/ge0 | apply/eq0 | apply/(of_Q_le R) | apply/le0].
 Qed.
 End Numbers.
 
