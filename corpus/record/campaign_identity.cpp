@@ -12,12 +12,17 @@
 namespace stiction {
 namespace {
 
-// A definition key by key; of one that is no object the whole.
+// A definition key by key, of a value that is an object each of its keys too ("solver name"); of one that is no
+// object the whole.
 std::map<std::string, std::string> PartsOf(const CampaignIdentity& identity) {
   std::map<std::string, std::string> parts;
   const Json definition = Json::parse(identity.definition, nullptr, false);
   if (definition.is_object()) {
-    for (const auto& [key, value] : definition.items()) parts[key] = PlainValue(value);
+    for (const auto& [key, value] : definition.items()) {
+      if (!value.is_object()) parts[key] = PlainValue(value);
+      if (!value.is_object()) continue;
+      for (const auto& [member, inner] : value.items()) parts[key + " " + member] = PlainValue(inner);
+    }
   } else {
     parts["definition"] = identity.definition;
   }
