@@ -18,6 +18,9 @@ inline constexpr int kAlgorithmVersion = 1;
 // too.
 inline constexpr int kCountsVersion = 3;
 
+// Of a search that tests a solver: raised with these, and with what its answers are judged by.
+inline constexpr int kJudgeVersion = kCountsVersion + 1;
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_ALGORITHM_VERSION_H_

@@ -257,11 +257,17 @@ static void RequireParents(const Campaign& campaign) {
   }
 }
 
-// A solver under test is given contacts that rest, and problems as they are drawn.
+// A solver under test is given contacts that rest; its objectives are its own.
 static void RequireTestable(const Campaign& campaign) {
-  if (campaign.solver.name.empty()) return;
-  if (!campaign.objective.empty())
-    throw InputError("solver: found one with an objective, expected --solver or --objective alone");
+  const bool of_solver = !campaign.objective.empty() && FindObjective(campaign.objective)->of_solver;
+  const bool tests = !campaign.solver.name.empty();
+  if (of_solver && !tests)
+    throw InputError(
+        fmt::format("objective: found {} without a solver, expected --solver too", campaign.objective));
+  if (tests && !campaign.objective.empty() && !of_solver)
+    throw InputError(
+        fmt::format("objective: found {} with a solver, expected error or time", campaign.objective));
+  if (!tests) return;
   for (const GeneratorId id : campaign.generators)
     if (Row(id).other_kind == ContactKind::kSliding)
       throw InputError(
@@ -345,7 +351,7 @@ std::string ShapeOfCampaign() { return ShapeOf(kFields, R"(format: "stiction-cam
 CampaignIdentity IdentityOf(const Campaign& campaign) {
   const Json remarks = FieldsOf(campaign, FieldUse::kRemark);
   return {DefinitionToJson(campaign).dump(), campaign.seed, kPoliciesForm.write(campaign).dump(),
-          kCountsVersion, remarks.empty() ? "" : remarks.dump()};
+          campaign.solver.name.empty() ? kCountsVersion : kJudgeVersion, remarks.empty() ? "" : remarks.dump()};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {

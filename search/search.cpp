@@ -17,6 +17,7 @@
 #include "corpus/store/store_lock.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/testimony.h"
+#include "search/under_test/optimized_solver_unit.h"
 #include "search/under_test/solver_unit.h"
 #include "search/units/backlog.h"
 #include "search/units/finish.h"
@@ -182,10 +183,15 @@ class Search {
 
   // Empty if it was cancelled: half an optimized unit is none.
   std::optional<UnitResult> Run(Worker& worker, std::int64_t unit, const std::vector<Candidate>& parents) {
-    if (worker.solver) return RunSolverUnit(campaign_, unit, *worker.solver, [this] { return Stopped(); });
-    if (campaign_.objective.empty()) return worker.runner.Run(unit);
+    const auto stopped = [this] { return Stopped(); };
+    if (campaign_.objective.empty()) {
+      if (worker.solver) return RunSolverUnit(campaign_, unit, *worker.solver, stopped);
+      return worker.runner.Run(unit);
+    }
     WorkMeter meter;  // candidates are tried and confirmed in turn: all of it counts as what is not named
-    UnitResult result = RunOptimizedUnit(campaign_, unit, parents, [this] { return Stopped(); });
+    UnitResult result = worker.solver
+                            ? RunOptimizedSolverUnit(campaign_, unit, *worker.solver, parents, stopped)
+                            : RunOptimizedUnit(campaign_, unit, parents, stopped);
     result.time = meter.Read();
     if (Stopped()) return std::nullopt;
     return result;

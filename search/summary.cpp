@@ -136,6 +136,9 @@ constexpr auto kOptimizedMembers = std::to_array<ToldOf<O>>({
     {"builds", "[text]", "", [](const O& s) -> Json { return s.work.builds; }},
     {"machines", "[text]", "", [](const O& s) -> Json { return s.work.machines; }},
     {"processor_seconds", "times", "", [](const O& s) { return TimeToJson(s.work.time); }},
+    {"groups?", "[{signature: text, kind: text, count: integer, facts: object}]",
+     "findings of a solver under test, the smallest first",
+     [](const O& s) { return s.campaign.solver.name.empty() ? Json() : GroupsToJson(s.store); }},
     {"remarks?", "{*: any}", "", [](const O& s) { return RemarksToJson(s.store); }},
 });
 
@@ -252,7 +255,7 @@ ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
 Json SummaryToJson(const Store& store) {
   Campaign campaign = CampaignOf(store.identity(), "summary");
   Json summary;
-  if (!campaign.solver.name.empty()) {
+  if (campaign.objective.empty() && !campaign.solver.name.empty()) {
     summary = SolverToJson(store);
   } else if (campaign.objective.empty()) {
     WriteTold<S>(kSummaryMembers, {store, TotalsOf(store)}, summary);
@@ -296,8 +299,10 @@ std::string OptimizedText(const Store& store, const std::string& file) {
     text +=
         fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);
   const Kept kept = KeptOf(store);
-  text += fmt::format("  loops of {} groups kept, {} of them certified and minimized\n",
-                      kept.finished + kept.pending, kept.finished);
+  const bool tests = !campaign.solver.name.empty();
+  text += fmt::format("  {} of {} groups kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
+                      kept.finished + kept.pending, kept.finished, tests ? "seen again" : "certified");
+  if (tests) text += GroupsText(store);
   if (kept.pending > 0) text += fmt::format("  what is to go is finished by: {}\n", FinishCommand(file));
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);

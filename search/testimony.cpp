@@ -108,7 +108,9 @@ void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has
   const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"found", "minimized", "alone"});
+  root.AllowKeys({"library", "found", "minimized", "alone"});
+  if (const auto library = root.Optional("library"); library && !library->json().is_boolean())
+    library->Refuse("true or false");
   root.Required("found", "facts of the problem as found").RequireObject();
   const auto alone = root.Optional("alone"), small = root.Optional("minimized");
   witness.Require(alone.has_value() == finding.done, "facts", alone ? "those of a finished finding" : "others",

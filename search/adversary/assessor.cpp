@@ -51,6 +51,13 @@ Assessed Assessor::Look(Candidate candidate) {
   assessed.candidate = std::move(candidate);
   assessed.candidate.choices.clear();
   for (const Choice& choice : assessed.made) assessed.candidate.choices.push_back(choice.value);
+  if (tries_) {
+    const Tried tried = tries_(assessed.candidate, problem);
+    assessed.worth.value = tried.value;
+    assessed.behaviour = tried.behaviour;
+    assessed.confirmed = true;
+    return assessed;
+  }
   InexactTrial trial(std::move(problem), policy_, limits_);
   assessed.behaviour = BehaviourOf(trial);
   if (objective_.inexact != nullptr) {

@@ -7,7 +7,9 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "search/adversary/candidate.h"
@@ -35,11 +37,19 @@ struct Assessed {
   bool confirmed = false;  // the worth is of the exact problem
 };
 
+// What a solver under test makes of a candidate, over the doubles that it is given; nothing else is to be
+// confirmed.
+struct Tried {
+  std::optional<double> value;
+  Behaviour behaviour = {};
+};
+using TrySolver = std::function<Tried(const Candidate&, const ContactProblem<double>&)>;
+
 class Assessor {
  public:
-  // The objective, one of the table, must outlive this.
-  Assessor(const Objective& objective, const Policy& policy, const Limits& limits)
-      : objective_(objective), policy_(policy), limits_(limits) {}
+  // The objective, one of the table, must outlive this. `tries`: of an objective of a solver under test.
+  Assessor(const Objective& objective, const Policy& policy, const Limits& limits, TrySolver tries = {})
+      : objective_(objective), policy_(policy), limits_(limits), tries_(std::move(tries)) {}
 
   const Objective& objective() const { return objective_; }
 
@@ -57,6 +67,7 @@ class Assessor {
   Objective objective_;
   Policy policy_;
   Limits limits_;
+  TrySolver tries_;
   std::int64_t looks_ = 0, confirmations_ = 0, denied_ = 0;
 };
 

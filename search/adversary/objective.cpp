@@ -60,6 +60,13 @@ constexpr Objective Exactly(const Text& text, F) {
           false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
 
+// Of a solver under test, whose process under_test/optimized_solver_unit.h asks.
+constexpr Objective OfSolver(const Text& text) {
+  Objective objective = {text.name, text.help, text.unit, text.sign};
+  objective.of_solver = true;
+  return objective;
+}
+
 // A counter of runs that end solved: what a loop counts is only when it was noticed.
 template <auto kCounter, class Scalar>
 Value OfSolved(Trial<Scalar>& trial) {
@@ -209,6 +216,9 @@ std::span<const Objective> Objectives() {
         row.of_loops = true;
         return row;
       }(),
+      OfSolver({"error", "with --solver: error of what it calls solved (solver/problem/errors.h): log10",
+                "decades"}),
+      OfSolver({"time", "with --solver: processor time that it takes, in seconds: log10", "decades"}),
   };
   return kRows;
 }

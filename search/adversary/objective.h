@@ -32,6 +32,7 @@ struct Objective {
   // Empty where the problem has no value. Null: there is no shortcut over doubles.
   std::optional<double> (*inexact)(InexactTrial&) = nullptr;
   std::optional<double> (*exact)(ExactTrial&) = nullptr;
+  bool of_solver = false;  // of a solver under test: neither of these
 };
 
 // The table itself.

@@ -111,7 +111,7 @@ std::vector<Candidate> Heritage::ParentsOf(std::int64_t unit) const {
 }
 
 UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const std::vector<Candidate>& parents,
-                            const std::function<bool()>& cancelled) {
+                            const std::function<bool()>& cancelled, const TrySolver& tries) {
   const Task task = TaskOf(Schedule(campaign), unit);
   Optimization optimization;
   optimization.objective = FindObjective(campaign.objective);
@@ -128,6 +128,7 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.policy = campaign.policies.front();
   optimization.limits = campaign.limits;
   optimization.cancelled = cancelled;
+  optimization.tries = tries;
   Optimized optimized = FindOptimizer(campaign.optimizer)->run(optimization);
   if (cancelled()) return {};
 

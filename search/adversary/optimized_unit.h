@@ -54,7 +54,7 @@ class Heritage {
 
 UnitResult RunOptimizedUnit(
     const Campaign& campaign, std::int64_t unit, const std::vector<Candidate>& parents,
-    const std::function<bool()>& cancelled = [] { return false; });
+    const std::function<bool()>& cancelled = [] { return false; }, const TrySolver& tries = {});
 
 // The best candidates of a store, over all its units: the best first, at most `most` of each generator and
 // number of contacts.

@@ -37,7 +37,7 @@ const OptimizerRow* FindOptimizer(std::string_view name) {
 Attempt::Attempt(const Optimization& optimization)
     : optimization_(optimization),
       random_(optimization.seed),
-      assessor_(*optimization.objective, optimization.policy, optimization.limits),
+      assessor_(*optimization.objective, optimization.policy, optimization.limits, optimization.tries),
       elites_(assessor_, [this](const Assessed& loop) { loops_.push_back(loop); }) {}
 
 Candidate Attempt::Random() {

@@ -27,6 +27,7 @@ struct Optimization {
   Policy policy;
   Limits limits;
   std::function<bool()> cancelled = [] { return false; };
+  TrySolver tries = {};  // of an objective of a solver under test
 };
 
 struct Optimized {

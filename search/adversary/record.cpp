@@ -105,6 +105,8 @@ std::string FaultInSpace(const FrontierRecord& record) {
 }  // namespace
 
 FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem, const Limits& limits) {
+  if (objective.exact == nullptr)
+    throw InputError(fmt::format("record: found objective {}, expected one without --solver", objective.name));
   FrontierRecord record;
   record.objective = &objective;
   record.problem = problem;

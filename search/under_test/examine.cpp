@@ -20,7 +20,7 @@ std::string Examined::Signature(std::size_t contacts) const {
 Examined Examine(SolverProcess& process, const ContactProblem<double>& posed, double seconds) {
   const SolverReply reply = process.Solve(posed, seconds);
   if (reply.end == SolverEnd::kCrashed) return {.kind = "crash", .what = reply.how};
-  if (reply.end == SolverEnd::kHung) return {.kind = "hang", .what = ""};
+  if (reply.end == SolverEnd::kHung) return {.kind = "hang", .what = reply.how};
   const SolverUnderTest& about = process.about();
   if (!reply.solved) {
     const bool solvable = SolutionUnder(about.law, ExactOf(posed)).has_value();

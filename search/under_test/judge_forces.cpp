@@ -108,8 +108,8 @@ std::optional<ForceVector> NormalForces(const ContactProblem<double>& posed) {
   return SolutionUnder(SolverLaw::kFrictionless, normals);
 }
 
-// Limits of the friction of each row, under the laws that are judged row by row; empty where they are not
-// known.
+}  // namespace
+
 std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& posed, SolverLaw law,
                                               const ForceVector& f) {
   std::vector<Rational> limits(posed.rows(), Rational(0));
@@ -130,8 +130,6 @@ std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& pose
   return limits;
 }
 
-}  // namespace
-
 ExactProblem ExactOf(const ContactProblem<double>& problem) {
   const auto exact = [](double x) { return Rational(x); };
   ExactProblem result;
@@ -144,13 +142,34 @@ ExactProblem ExactOf(const ContactProblem<double>& problem) {
   return result;
 }
 
-JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+namespace {
+
+// What forces of idle groups are, in units of the whole problem; they are set to zero where that is within the
+// accuracy. Nothing where no force acts on any contact.
+Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accuracy, Eigen::VectorXd& f) {
+  Groups groups;
+  groups.Find(posed);
+  std::vector<bool> idle(posed.contacts.size(), true);  // by the first contact of a group
+  for (int i = 0; i < posed.rows(); ++i)
+    if (posed.b[i] != 0) idle[groups.OfRow(i)] = false;
+  const ExactProblem problem = ExactOf(posed);
+  const ForceVector forces = f.unaryExpr([](double x) { return Rational(x); });
+  const Rational given = abs(forces.dot(problem.b)), done = abs(forces.dot(problem.A * forces));
+  const Rational work = std::min(given, done);
+  if (work == 0) return 0;
+  Rational largest = 0;  // squared
+  for (int i = 0; i < posed.rows(); ++i)
+    if (idle[groups.OfRow(i)])
+      largest = std::max<Rational>(largest, forces[i] * forces[i] * problem.A(i, i) / work);
+  if (largest > accuracy * accuracy) return 0;
+  for (int i = 0; i < posed.rows(); ++i)
+    if (idle[groups.OfRow(i)] && posed.A(i, i) > 0) f[i] = 0;
+  return SquareRoot<Rational>::Of(largest);
+}
+
+JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
                          const Eigen::VectorXd& f) {
   JudgedForces judged;
-  if (!f.allFinite()) {
-    judged.error = std::numeric_limits<double>::infinity();
-    return judged;
-  }
   const double gate = BoundErrors(posed, FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
   const bool passes_coulomb = Rational(std::min(gate, std::numeric_limits<double>::max())) <= accuracy;
   const bool is_coulombs = IsCoulombs(law, posed.dimension);
@@ -186,6 +205,21 @@ JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, con
   // In space what is left is the direction of friction; in the plane a mode that is missed by a little in each
   // part.
   judged.miss = worst.amount * 2 >= error ? worst.name : "friction-askew";
+  return judged;
+}
+
+}  // namespace
+
+JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                         const Eigen::VectorXd& f) {
+  if (!f.allFinite()) return {.error = std::numeric_limits<double>::infinity(), .miss = ""};
+  JudgedForces judged = JudgeLoaded(posed, law, accuracy, f);
+  if (judged.miss.empty() && !judged.misses_coulomb) return judged;
+  Eigen::VectorXd loaded = f;
+  const Rational of_idle = TakeOutIdle(posed, accuracy, loaded);
+  if (loaded == f) return judged;
+  judged = JudgeLoaded(posed, law, accuracy, loaded);
+  judged.error = std::max(judged.error, ToDouble(of_idle));
   return judged;
 }
 

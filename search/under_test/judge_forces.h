@@ -10,12 +10,20 @@
 // what the nearest of the three misses, forces and accelerations in the units of the row
 // (solver/problem/units.h), a tangent's force also in mu times that of its normal. A miss is named after the
 // condition that is missed by most.
+//
+// Idle groups: contacts that A couples, with b = 0 at all of them. They have no unit of their own, and what
+// rounds elsewhere leaves forces there in a method that sees the whole matrix. With W the work of all forces of
+// the problem (units.h), their unit of force is sqrt(W / A_ii), the force that alone gives A_ii f^2 = W, and of
+// acceleration sqrt(A_ii W): both change as forces and accelerations do under A -> D A D. Forces of idle groups
+// that are all within the accuracy are taken for none. abs(A_ij) <= sqrt(A_ii A_jj), so the accelerations that
+// they make are within as many times the accuracy as there are rows. Where W = 0 any force is an error.
 
 #ifndef STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
 #define STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "corpus/exact_problem.h"
 #include "search/under_test/solver.h"
@@ -36,6 +44,12 @@ ExactProblem ExactOf(const ContactProblem<double>& problem);
 // The problem as posed (solver_process.h).
 JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
                          const Eigen::VectorXd& f);
+
+// Limits of the friction of each row, 0 of normals, under the laws that are judged row by row: of `box` and
+// `findex` whatever the forces are. Empty under `findex` where the problem of the normals has more than one
+// solution.
+std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& posed, SolverLaw law,
+                                              const ExactProblem::Vector& f);
 
 // Forces that satisfy the law exactly, verified; empty if none are known. Of the laws whose conditions are
 // Coulomb's: `frictionless`, `coulomb` and `pyramid` in the plane.

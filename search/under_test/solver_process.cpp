@@ -180,9 +180,16 @@ double SolverProcess::ProcessSeconds() const {
 void SolverProcess::Restart() { process_.reset(); }
 
 SolverReply SolverProcess::Solve(const ContactProblem<double>& posed, double seconds) {
+  const std::string request = RequestOf(posed, about_.law);
+  SolverReply reply = AskOnce(request, posed.rows(), seconds);
+  if (reply.how == kAsleep) reply = AskOnce(request, posed.rows(), seconds);
+  return reply;
+}
+
+SolverReply SolverProcess::AskOnce(const std::string& request, int rows, double seconds) {
   if (!process_) Start();
   const double before = ProcessSeconds();
-  SolverReply reply = Ask(RequestOf(posed, about_.law), posed.rows(), seconds);
+  SolverReply reply = Ask(request, rows, seconds);
   if (process_) {
     seconds_ += std::max(0.0, ProcessSeconds() - before);
     last_memory_ = Memory();
@@ -193,8 +200,9 @@ SolverReply SolverProcess::Solve(const ContactProblem<double>& posed, double sec
 
 SolverReply SolverProcess::Ask(const std::string& request, int rows, double seconds) {
   const double before = ProcessSeconds();
-  const auto deadline = LineProcess::After(kSolverSlowness * seconds);
+  const auto deadline = LineProcess::After(kSolverPatience * seconds);
   LineProcess::End end = process_->Write(request, deadline);
+  bool is_spent = false;  // the processor time
   while (end == LineProcess::End::kLine) {
     const LineProcess::Line line = process_->Read(std::min(deadline, LineProcess::After(kLookEvery)));
     if (line.end == LineProcess::End::kLine) {
@@ -202,10 +210,11 @@ SolverReply SolverProcess::Ask(const std::string& request, int rows, double seco
       return {SolverEnd::kCrashed, false, {}, "garbled"};
     }
     if (line.end == LineProcess::End::kDied) return Died();
-    const bool late = LineProcess::Clock::now() >= deadline;
-    if (late || ProcessSeconds() - before > seconds) end = LineProcess::End::kTimeout;
+    is_spent = ProcessSeconds() - before > seconds;
+    if (is_spent || LineProcess::Clock::now() >= deadline) end = LineProcess::End::kTimeout;
   }
-  return end == LineProcess::End::kDied ? Died() : SolverReply{SolverEnd::kHung, false, {}, ""};
+  if (end == LineProcess::End::kDied) return Died();
+  return {SolverEnd::kHung, false, {}, is_spent ? "" : std::string(kAsleep)};
 }
 
 SolverReply SolverProcess::Died() {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "search/under_test/solver.h"
@@ -18,9 +19,13 @@ namespace stiction {
 
 class LineProcess;
 
-inline constexpr double kSolverSeconds = 1;    // of processor time, for a problem
-inline constexpr double kSolverSlowness = 10;  // times as long on the wall clock: one that sleeps
+inline constexpr double kSolverSeconds = 1;  // of processor time, for a problem
+// Times as long on the wall clock: far beyond what a busy machine makes of it. What takes so long sleeps, or
+// has hardly been given a processor; it is asked once more, in a new process, before it is said to hang.
+inline constexpr double kSolverPatience = 60;
 inline constexpr std::int64_t kSolverBytes = std::int64_t{1} << 29;  // beyond what it begins with
+
+inline constexpr std::string_view kAsleep = "asleep";
 
 enum class SolverEnd : std::uint8_t { kAnswered, kCrashed, kHung };
 
@@ -28,7 +33,8 @@ struct SolverReply {
   SolverEnd end = SolverEnd::kAnswered;
   bool solved = false;  // as it says
   Eigen::VectorXd f;
-  std::string how;  // of a crash: "sigsegv", "exit-3", "out-of-memory", "garbled": what it wrote is no answer
+  std::string how;  // of a crash: "sigsegv", "exit-3", "out-of-memory", "garbled": what it wrote is no answer;
+                    // of a hang: "asleep" where it took the time of the clock alone
 };
 
 // What runs a file: a library (NAME.so, NAME.so.1) in a process of this program, any other file as a program.
@@ -47,6 +53,7 @@ class SolverProcess {
   ~SolverProcess();
 
   const SolverUnderTest& about() const { return about_; }
+  bool IsLibrary() const { return command_.size() > 1; }
   // The problem as posed. One that crashed or hung is started anew by the next call.
   SolverReply Solve(const ContactProblem<double>& posed, double seconds = kSolverSeconds);
   // The next call finds a new process.
@@ -58,6 +65,7 @@ class SolverProcess {
 
  private:
   void Start();
+  SolverReply AskOnce(const std::string& request, int rows, double seconds);
   SolverReply Ask(const std::string& request, int rows, double seconds);
   SolverReply Died();
   double ProcessSeconds() const;

@@ -111,17 +111,6 @@ Json AspectsToJson(const TestedStore& s) {
   return rows;
 }
 
-Json GroupsToJson(const TestedStore& s) {
-  Json groups = Json::array();
-  for (const Finding& finding : BySize(s.store)) {
-    groups.push_back({{"signature", finding.signature},
-                      {"kind", finding.kind},
-                      {"count", s.totals.record.signatures.at(finding.signature)},
-                      {"facts", ParseJson(finding.facts, finding.signature)}});
-  }
-  return groups;
-}
-
 Json CountersOf(const TestedStore& s) {
   Json counters = Json::object();
   ForEachCounter(s.sum, [&counters](const char* name, std::int64_t value) { counters[name] = value; });
@@ -140,7 +129,7 @@ constexpr auto kTestedMembers = std::to_array<ToldOf<T>>({
     {"aspects", "[{aspect: text, value: text, problems: integer, failures: {*: any}}]",
      "how often it fails, by what problems are like", AspectsToJson},
     {"groups", "[{signature: text, kind: text, count: integer, facts: object}]", "findings, the smallest first",
-     GroupsToJson},
+     [](const T& s) { return GroupsToJson(s.store); }},
     {"finished", "integer", "", [](const T& s) -> Json { return s.totals.finished; }},
     {"pending", "integer", "", [](const T& s) -> Json { return s.totals.pending; }},
     {"builds", "[text]", "", [](const T& s) -> Json { return s.totals.work.builds; }},
@@ -197,15 +186,33 @@ std::string SolverText(const Store& store, const std::string& file) {
     for (const auto& [value, tally] : By(aspect, s.totals.record))
       text += fmt::format("  {:16} {:>12} problems: {}\n", value, Grouped(tally.problems), FailuresText(tally));
   }
-  const std::vector<Finding> findings = BySize(store);
-  if (!findings.empty()) text += "findings, the smallest first:\n";
-  for (const Finding& finding : findings)
-    text += GroupText(finding, s.totals.record.signatures.at(finding.signature));
-  text = Folded(text);
-  if (!findings.empty())
-    text += fmt::format("The same search again goes on. One finding as a problem file:\n    {} problem {} {}\n",
-                        ProgramName(), file, findings.front().signature);
+  text = Folded(text + GroupsText(store));
+  if (const std::vector<Finding> findings = BySize(store); !findings.empty())
+    text += fmt::format(
+        "The same search again goes on. One finding as a problem file, and as a program that shows it:\n    "
+        "{0} "
+        "problem {1} {2}\n    {0} export {1}:{2} --reproducer c -o {2}.c\n",
+        ProgramName(), file, findings.front().signature);
   return text;
+}
+
+std::string GroupsText(const Store& store) {
+  const auto signatures = store.Total().signatures;
+  std::string text;
+  for (const Finding& finding : BySize(store)) text += GroupText(finding, signatures.at(finding.signature));
+  return text.empty() ? "" : "findings, the smallest first:\n" + text;
+}
+
+Json GroupsToJson(const Store& store) {
+  const auto signatures = store.Total().signatures;
+  Json groups = Json::array();
+  for (const Finding& finding : BySize(store)) {
+    groups.push_back({{"signature", finding.signature},
+                      {"kind", finding.kind},
+                      {"count", signatures.at(finding.signature)},
+                      {"facts", ParseJson(finding.facts, finding.signature)}});
+  }
+  return groups;
 }
 
 Json SolverToJson(const Store& store) {

@@ -17,6 +17,9 @@ bool TestsSolver(const Store& store, const std::string& file);
 
 std::string SolverText(const Store& store, const std::string& file);
 Json SolverToJson(const Store& store);
+// Its groups alone, the smallest first: of a search with an objective, which has no rates.
+std::string GroupsText(const Store& store);
+Json GroupsToJson(const Store& store);
 std::string ShapeOfSolver();  // of what it gives (cli/schema.h)
 
 }  // namespace stiction

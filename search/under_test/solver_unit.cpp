@@ -21,7 +21,8 @@
 namespace stiction {
 namespace {
 
-constexpr int kMostProcesses = 100;  // of a unit, which ends early where so many crashed or hung
+constexpr int kMostProcesses = 100;    // of a unit, which ends early where so many crashed or hung
+constexpr int kProcessesOfSleep = 20;  // that one counts for that sleeps: it takes minutes
 // Of a candidate to be simpler: a hang is tried many times, and what is left of it once more in full.
 constexpr double kSecondsOfCandidate = 0.1;
 constexpr std::int64_t kLeakSuspected = std::int64_t{1}
@@ -54,7 +55,7 @@ std::int64_t& CounterOf(UnderTestTally& tally, std::string_view kind) {
 
 Json FactsOf(const Examined& examined, std::size_t contacts, std::int64_t leak) {
   Json facts = {{"contacts", contacts}, {"kind", examined.kind}, {"what", examined.what}};
-  if (examined.says_solved && std::isfinite(examined.error)) facts["error"] = examined.error;
+  if (examined.kind == "silent-wrong" && std::isfinite(examined.error)) facts["error"] = examined.error;
   if (leak > 0) facts["bytes"] = leak;
   return facts;
 }
@@ -107,7 +108,8 @@ class SolverUnit {
     ++tally.problems;
     ++CounterOf(tally, examined.kind);
     tally.misses_coulomb += examined.misses_coulomb;
-    lost_ += examined.kind == "crash" || examined.kind == "hang";
+    if (examined.kind == "crash" || examined.kind == "hang")
+      lost_ += examined.what == kAsleep ? kProcessesOfSleep : 1;
     if (examined.Fails()) Find(index, examined, 0);
     WatchMemory(index);
   }
@@ -154,19 +156,9 @@ class SolverUnit {
     const std::string signature = examined.Signature(posed_.contacts.size());
     if (++result_.record.signatures[signature] > 1) return;
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
-    Finding finding;
-    finding.signature = signature;
-    finding.kind = examined.kind;
-    finding.unit = unit_;
-    finding.index = index;
-    finding.generator = Row(task_.generator).name;
-    finding.contacts = task_.contacts;
-    finding.policy = PolicyName(campaign_.policies.front());
-    finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
-    finding.exact_outcome = Name(Outcome::kUndecided);
-    finding.problem = ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_))).dump();
-    finding.facts = Json{{"found", FactsOf(examined, posed_.contacts.size(), leak)}}.dump();
-    result_.candidates.push_back(std::move(finding));
+    result_.candidates.push_back(SolverFinding(campaign_, unit_, index, process_,
+                                               ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_))).dump(),
+                                               examined, leak));
   }
 
   const Campaign& campaign_;
@@ -237,6 +229,26 @@ std::string CertificateOfSolution(SolverLaw law, const ExactProblem& problem, co
 std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
                                         const std::function<bool()>& cancelled) {
   return SolverUnit(campaign, unit, process).Run(cancelled);
+}
+
+Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t index,
+                      const SolverProcess& process, const std::string& problem, const Examined& examined,
+                      std::int64_t leak) {
+  const Task task = TaskOf(Schedule(campaign), unit);
+  const std::size_t contacts = static_cast<std::size_t>(task.contacts);
+  Finding finding;
+  finding.signature = examined.Signature(contacts);
+  finding.kind = examined.kind;
+  finding.unit = unit;
+  finding.index = index;
+  finding.generator = Row(task.generator).name;
+  finding.contacts = task.contacts;
+  finding.policy = PolicyName(campaign.policies.front());
+  finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
+  finding.exact_outcome = Name(Outcome::kUndecided);
+  finding.problem = problem;
+  finding.facts = Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}}.dump();
+  return finding;
 }
 
 std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaign& campaign,

@@ -8,10 +8,13 @@
 #ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
 #define STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
 
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "search/campaign.h"
+#include "search/under_test/examine.h"
 #include "search/under_test/solver_process.h"
 #include "search/units/unit.h"
 
@@ -20,6 +23,12 @@ namespace stiction {
 // Half a unit is none: empty if it was cancelled.
 std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
                                         const std::function<bool()>& cancelled);
+
+// What the solver did with problem `index` of a unit, not finished yet. `problem`: as a file; `leak`: bytes of
+// a call.
+Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t index,
+                      const SolverProcess& process, const std::string& problem, const Examined& examined,
+                      std::int64_t leak = 0);
 
 // The finding seen again with the problem alone in a new process, and made small while it fails alike: the same
 // kind of failure, in the same way. Beside it the certificate that there is a solution, where one is known. A

@@ -2,12 +2,16 @@
 // What a solver under test is judged by. What becomes of real ones: tests/cli/under_test_test.py.
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "corpus/json.h"
 #include "search/campaign.h"
 #include "search/under_test/judge_forces.h"
 #include "search/under_test/solver_process.h"
+#include "tests/scratch.h"
 
 namespace stiction {
 namespace {
@@ -86,6 +90,68 @@ TEST_CASE("under test: bounds of findex that are not unique leave an answer unju
   CHECK_FALSE(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), endless).error < 1);
 }
 
+TEST_CASE("under test: rounding at a contact on which nothing acts is held to what acts elsewhere") {
+  ContactProblem<double> problem;
+  problem.contacts.assign(3, {ContactKind::kFrictionless, 0, {}});
+  problem.A = Eigen::Vector3d(4, 2, 1).asDiagonal();
+  problem.A(0, 2) = problem.A(2, 0) = 1;
+  problem.b = Eigen::Vector3d(0, -1, 0);  // the second alone is loaded: f = 1/2, W = 1/2
+  const auto judged = [&](double first, double last, double accuracy = 1e-6) {
+    return JudgeForces(problem, SolverLaw::kFrictionless, Rational(accuracy),
+                       Eigen::Vector3d(first, 0.5, last));
+  };
+  const double unit = std::sqrt(0.5 / 4);  // sqrt(W / A)
+  CHECK(judged(1e-16, 0).miss == "");
+  CHECK(judged(-1e-16, 1e-16).miss == "");
+  CHECK(judged(0.9e-6 * unit, 0).miss == "");
+  CHECK(judged(0.9e-6 * unit, 0).error == Approx(0.9e-6));
+  CHECK(judged(1.1e-6 * unit, 0).miss == "presses-and-separates");
+  CHECK(judged(-1.1e-6 * unit, 0).miss == "pulls");
+  CHECK(judged(1e-16, 0, 1e-17).miss != "");
+  // In other units it is the same problem.
+  problem.A(0, 0) *= 1e12, problem.A(0, 2) = problem.A(2, 0) = 1e6;
+  CHECK(judged(0.9e-12 * unit, 0).miss == "");
+  CHECK(judged(1.1e-12 * unit, 0).miss != "");
+  // What is loaded, by however little, has a unit of its own.
+  problem.b[0] = -1e-20;
+  CHECK(judged(1e-16, 0).miss != "");
+  // Where nothing acts at all there is no unit.
+  problem.b.setZero();
+  const Eigen::Vector3d idle(1e-16, 0, 0);
+  CHECK(JudgeForces(problem, SolverLaw::kFrictionless, Rational(1, 1000000), idle).miss != "");
+}
+
+namespace {
+
+// A program that answers f = 0; its first process makes a file and sleeps instead, or all of them do.
+std::filesystem::path Sleeper(const testing::Scratch& folder, bool for_ever) {
+  const std::filesystem::path file = folder / "sleeper.sh", woken = folder / "woken";
+  std::ofstream(file) << "#!/bin/sh\n"
+                         "echo '{\"protocol\": 1, \"solver\": \"x\", \"version\": \"1\", \"law\": "
+                         "\"frictionless\", \"accuracy\": 1e-6}'\n"
+                      << "while read -r line; do\n  if [ ! -e " << woken << " ]; then "
+                      << (for_ever ? "" : "touch " + woken.string() + "; ") << "exec sleep 100; fi\n"
+                      << "  echo '{\"solved\": true, \"f\": [0]}'\ndone\n";
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("under test: what waits is asked once more before it is said to hang") {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kFrictionless, 0, {}}};
+  problem.A = problem.b = Eigen::MatrixXd::Zero(1, 1);
+  constexpr double kSeconds = 0.01;  // 0.6 on the clock
+  for (const bool for_ever : {false, true}) {
+    const testing::Scratch folder;
+    SolverProcess process({Sleeper(folder, for_ever).string()});
+    const SolverReply reply = process.Solve(problem, kSeconds);
+    CHECK((reply.end == SolverEnd::kHung) == for_ever);
+    CHECK(reply.how == (for_ever ? kAsleep : ""));
+  }
+}
+
 TEST_CASE("under test: a solution is known of Coulomb's law in the plane") {
   const ExactProblem problem = ExactOf(OneContact(1, {2, 3}, {-1, 1}));
   const auto f = SolutionUnder(SolverLaw::kCoulomb, problem);
@@ -105,7 +171,11 @@ TEST_CASE("under test: a campaign names the solver, and is another with another 
   other.solver.version = "2";
   CHECK_FALSE(IdentityOf(other) == IdentityOf(campaign));
   other.objective = "steps";
-  CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("--solver or --objective"));
+  CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("expected error or time"));
+  other.objective = "error";
+  CHECK_NOTHROW(RequireConsistent(other));
+  other.solver = {};
+  CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("--solver"));
   Campaign sliding = campaign;
   sliding.generators = {GeneratorId::kSliding};
   CHECK_THROWS_WITH(RequireConsistent(sliding), Catch::Contains("without sliding contacts"));
