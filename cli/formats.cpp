@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction import, stiction export: problems in the formats of others.
+// stiction import, stiction export: problems in the formats of others, and programs that show findings.
 
 #include "corpus/formats/formats.h"
 
@@ -10,6 +10,8 @@
 #include "cli/command_line.h"
 #include "cli/shared.h"
 #include "corpus/json.h"
+#include "search/campaign.h"
+#include "search/under_test/reproducer.h"
 
 namespace stiction {
 namespace {
@@ -34,6 +36,7 @@ struct FormatsVerb {
   std::string storage;      // export: how it has A
   bool symmetrize = false;  // import
   bool round = false;       // export
+  std::string reproducer;   // export: of kReproducerNames
   bool json = false;
 };
 
@@ -57,7 +60,25 @@ int Import(const FormatsVerb& o) {
   return kExitDone;
 }
 
+// A program that shows what a solver under test does wrong.
+int WriteReproducer(const FormatsVerb& o) {
+  if (!o.format.empty() || !o.storage.empty() || o.round)
+    throw InputError("export: found --reproducer with --format, --storage or --round, expected it without");
+  const auto named = FindNamed(o.file);
+  if (!named)
+    throw InputError(fmt::format("{}: found no finding, expected STORE:FINDING with --reproducer", o.file));
+  const Campaign campaign = CampaignOf(Store::OpenToRead(named->store).identity(), named->store);
+  const std::string file = std::filesystem::path(o.output).filename().string();
+  WriteText(o.output,
+            ReproducerOf(named->finding, campaign.solver, o.reproducer, o.output == "-" ? "FILE" : file));
+  SayWhatWasDone(o.output, o.json, fmt::format("{}: its first lines say how it runs\n", o.output),
+                 {{"written", Json::array({o.output})}, {"rounded", 0}, {"largest_change", "0"}});
+  return kExitDone;
+}
+
 int Export(const FormatsVerb& o) {
+  if (!o.reproducer.empty()) return WriteReproducer(o);
+  if (o.format.empty()) throw InputError("export: found neither --format nor --reproducer, expected one");
   SparseProblem problem = ReadSparseProblem(o.file);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
@@ -91,13 +112,21 @@ const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandL
 });
 
 const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
-  auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
+  auto [verb, o] =
+      program.Add("export", "Write a problem in another format, or a program that shows a finding", Export);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
-  verb.Option("--format", o.format, "the format to write").Required().OneOf(FormatNames());
+  verb.Option("--format", o.format, "the format to write").OneOf(FormatNames());
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");
+  verb.Option("--reproducer", o.reproducer,
+              "instead of a format: of a finding of search --solver, a program that shows it")
+      .OneOf({kReproducerNames.begin(), kReproducerNames.end()})
+      .Details(
+          "At most 60 lines, which print what goes wrong and the right forces. c is linked with the library "
+          "under test, python takes it or the program as its argument, ode and bullet are C++ over these "
+          "packages alone; the first comment has the command");
   verb.Prints(o.json, "a problem that was written in another format", R"({
       written: written, rounded: integer,  // numbers that are no doubles
       largest_change: exact})");

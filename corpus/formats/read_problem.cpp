@@ -51,7 +51,7 @@ std::string Some(const std::vector<Finding>& findings) {
   return fmt::format("{}{}", fmt::join(names, ", "), more);
 }
 
-ProblemFile FindingNamed(const std::string& store, const std::string& name, const std::string& source) {
+Finding FindingNamed(const std::string& store, const std::string& name, const std::string& source) {
   const std::vector<Finding> findings = Store::OpenToRead(store).Findings();
   std::vector<Finding> fit;
   for (const Finding& finding : findings) {
@@ -65,8 +65,7 @@ ProblemFile FindingNamed(const std::string& store, const std::string& name, cons
   if (fit.size() != 1)
     throw InputError(fmt::format("{}: found {} findings that begin with '{}', expected one, such as {}", source,
                                  fit.size(), name, Some(fit.empty() ? findings : fit)));
-  const Finding& finding = fit.front();
-  return ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, source);
+  return fit.front();
 }
 
 // ---- Scenes ----
@@ -118,10 +117,20 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
   return ToDense(problem, problem.name);
 }
 
-std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file) {
+std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
   const std::string source = file.string();
   const std::size_t end = EndOfStore(source);
-  if (end != source.npos) return FindingNamed(source.substr(0, end), source.substr(end + 1), source);
+  if (end == source.npos) return std::nullopt;
+  const std::string store = source.substr(0, end);
+  return NamedFinding{store, FindingNamed(store, source.substr(end + 1), source)};
+}
+
+std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  if (const auto named = FindNamed(file)) {
+    const Finding& finding = named->finding;
+    return ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, source);
+  }
   if (IsStore(file))
     throw InputError(
         fmt::format("{0}: found a store, expected a problem; {0}:FINDING is that of a finding, by "

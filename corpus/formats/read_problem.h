@@ -14,9 +14,12 @@
 #define STICTION_CORPUS_FORMATS_READ_PROBLEM_H_
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <variant>
 
 #include "corpus/record/sparse_problem.h"
+#include "corpus/store/store.h"
 
 namespace stiction {
 
@@ -31,6 +34,13 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem);
 ProblemFile ReadProblem(const std::filesystem::path& file);
 // The same for what takes any size, and asks for A.
 SparseProblem ReadSparseProblem(const std::filesystem::path& file);
+
+// What STORE:FINDING names; empty of anything else.
+struct NamedFinding {
+  std::string store;
+  Finding finding;
+};
+std::optional<NamedFinding> FindNamed(const std::filesystem::path& file);
 
 }  // namespace stiction
 
