@@ -20,6 +20,7 @@
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "reports/comparison/comparison.h"
+#include "reports/comparison/solvers.h"
 #include "reports/papers/package.h"
 #include "reports/text/text_report.h"
 #include "search/campaign.h"
@@ -32,8 +33,8 @@ namespace stiction {
 namespace {
 
 struct ReportVerb {
-  std::string store, other, folder, package;
-  std::vector<std::string> benches;
+  std::string store, folder, package;
+  std::vector<std::string> others, benches;
   std::string since;
   std::optional<std::int64_t> files;
   bool replace = false, text = false, latex = false, json = false;
@@ -52,10 +53,11 @@ int PrintReport(const ReportVerb& o, const Store& store) {
   const bool optimized = !CampaignOf(store.identity(), o.store).objective.empty();
   if (o.json)
     std::cout << JsonText(SummaryToJson(store)) << "\n";
-  else if (TestsSolver(store, o.store))
-    std::cout << SolverText(store, o.store);
+  else if (optimized)
+    std::cout << OptimizedText(store, o.store);
   else
-    std::cout << (optimized ? OptimizedText(store, o.store) : TextReport(store, o.store, KnownAs));
+    std::cout << (TestsSolver(store, o.store) ? SolverText(store, o.store)
+                                              : TextReport(store, o.store, KnownAs));
   return kExitDone;
 }
 
@@ -73,16 +75,47 @@ Store OpenDrawn(const std::string& file) {
 }
 
 // A difference that is more than noise is a disagreement of the two.
+int CompareCampaigns(const ReportVerb& o) {
+  const std::string& other = o.others.front();
+  const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(other), other);
+  if (!o.folder.empty())
+    TellAside(WriteComparison(comparison, o.store, other, o.folder, OccupiedIf(o.replace)));
+  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n"
+                       : ComparisonText(comparison, o.store, other));
+  return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
+}
+
+// Any number of them.
+int CompareTested(const ReportVerb& o, const std::vector<std::string>& files) {
+  std::vector<Store> stores;
+  for (const std::string& file : files) {
+    ProgressBar progress;
+    stores.push_back(OpenSound(file, Reading(progress, file)));
+    if (!TestsSolver(stores.back(), file))
+      throw InputError(
+          fmt::format("{}: found a search of the published algorithm, expected one that tests a solver, "
+                      "as {} does",
+                      file, o.store));
+    if (!CampaignOf(stores.back().identity(), file).objective.empty())
+      throw InputError(
+          fmt::format("{}: found an optimized search, expected one at random: others have no rates", file));
+  }
+  const SolversCompared compared = CompareSolvers(stores, files);
+  if (!o.folder.empty()) TellAside(WriteSolvers(compared, o.folder, OccupiedIf(o.replace)));
+  std::cout << (o.json ? JsonText(SolversToJson(compared)) + "\n" : SolversText(compared));
+  return kExitDone;
+}
+
 int CompareStores(const ReportVerb& o) {
   if (!o.package.empty() || !o.benches.empty() || !o.since.empty() || o.latex || o.files || o.text)
     throw InputError(
         "report: found two stores, expected one with --package, --bench, --since, --files, --latex or --text");
-  const Comparison comparison = Compare(OpenDrawn(o.store), o.store, OpenDrawn(o.other), o.other);
-  if (!o.folder.empty())
-    TellAside(WriteComparison(comparison, o.store, o.other, o.folder, OccupiedIf(o.replace)));
-  std::cout << (o.json ? JsonText(ComparisonToJson(comparison)) + "\n"
-                       : ComparisonText(comparison, o.store, o.other));
-  return comparison.MoreThanNoise() ? kExitNotSo : kExitDone;
+  std::vector<std::string> files = o.others;
+  files.insert(files.begin(), o.store);
+  if (TestsSolver(Store::OpenToRead(o.store), o.store)) return CompareTested(o, files);
+  if (files.size() == 2) return CompareCampaigns(o);
+  throw InputError(fmt::format("report: found {} stores, expected two; more only of searches that test solvers",
+                               files.size()));
 }
 
 // Of fields of a campaign, by their names.
@@ -158,7 +191,7 @@ int ReportBenches(const ReportVerb& o) {
 
 int RunReport(const ReportVerb& o) {
   if (o.store.empty()) return ReportBenches(o);
-  if (!o.other.empty()) return CompareStores(o);
+  if (!o.others.empty()) return CompareStores(o);
   if (o.folder.empty() && o.package.empty() && !o.text)
     throw InputError("report: found none of -o, --package and --text, expected a folder to write, or --text");
   if (o.folder.empty()) RequireFolder(o);
@@ -171,8 +204,11 @@ const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search; none with --bench alone");
-  verb.Positional("STORE2", o.other, "store of another campaign: the two are compared instead")
-      .Details("Exit 1 if a difference is more than noise");
+  verb.Positional("STORE2", o.others, "store of another campaign: the two are compared instead")
+      .Details(
+          "Exit 1 if a difference is more than noise. Of searches that test solvers any number of stores: "
+          "their "
+          "failures side by side");
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
   verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
   verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
@@ -184,13 +220,16 @@ const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
               "findings that have files of their own; tables and page have all; by default all")
       .AtLeast(0);
   verb.Prints(o.json,
-              "what a report wrote; with two stores, how they compare; with --text, what the store holds",
+              "what a report wrote; with more stores, how they compare; with --text, what the store holds",
               R"({written: written} | {
       differences: [text],  // of the two campaigns by design
       tests: integer, only_a: [group], only_b: [group],
       rates: [{...group, friction: text, measure: text, a: share, b: share, p: number | null,
-               p_corrected: number | null, more_than_noise: truth}]} | summary | optimized)")
-      .help = "machine output: what was written, with two stores the comparison, with --text the summary";
+               p_corrected: number | null, more_than_noise: truth}]} | {
+      differences: [text],  // of searches that test solvers
+      solvers: {columns: [text], rows: [[any]]}, failures: {columns: [text], rows: [[any]]},
+      smallest: {columns: [text], rows: [[any]]}} | summary | optimized | tested)")
+      .help = "machine output: what was written, with more stores the comparison, with --text the summary";
   AddReplace(verb, o.replace);
 });
 

@@ -150,9 +150,8 @@ Campaign CampaignOf(const SearchVerb& verb) {
 
 // For the end of a search, and for `status`.
 std::string SummaryOf(const Store& store, const std::string& file) {
-  if (TestsSolver(store, file)) return SolverText(store, file);
-  const bool optimized = !CampaignOf(store.identity(), file).objective.empty();
-  return optimized ? OptimizedText(store, file) : SummaryText(store, file);
+  if (!CampaignOf(store.identity(), file).objective.empty()) return OptimizedText(store, file);
+  return TestsSolver(store, file) ? SolverText(store, file) : SummaryText(store, file);
 }
 
 // Grave findings are an alarm.

@@ -30,6 +30,19 @@ Html Stores(const std::string& file_a, const std::string& file_b) {
          Html("\n");
 }
 
+// The beginning of a page: where to skip to, what is asked, the stores, and links to its sections (id, name).
+Html Header(const char* kicker, const char* question, const Html& stores,
+            const std::vector<std::pair<const char*, const char*>>& sections) {
+  Html links;
+  for (const auto& [id, name] : sections)
+    links += Tag("a", {{"href", fmt::format("#{}", id)}})(name) + Html("\n");
+  const auto& [first, name_of_first] = sections.at(1);
+  return Tag("a",
+             {{"class", "skip"}, {"href", fmt::format("#{}", first)}})(fmt::format("To: {}", name_of_first)) +
+         Html("\n<header>\n") + Tag("p", {{"class", "kicker"}})(kicker) + Html("\n") + Tag("h1")(question) +
+         Html("\n") + stores + Tag("nav", {{"aria-label", "Sections"}})(links) + Html("\n</header>\n");
+}
+
 // ---- What is more than noise ----
 
 TableCell CountCell(const Ratio& ratio) {
@@ -128,12 +141,49 @@ std::string ComparisonPage(const Comparison& comparison, const std::string& file
   return FilledTemplate(
       page,
       {{"title", Text("stiction: two campaigns side by side")},
-       {"stores", Stores(file_a, file_b)},
+       {"header", Header("Two campaigns of stiction, side by side", "What differs, and is it more than noise?",
+                         Stores(file_a, file_b),
+                         {{"design", "How they differ"},
+                          {"noise", "More than noise"},
+                          {"rates", "Rates"},
+                          {"steps", "Steps"},
+                          {"again", "Making it again"},
+                          {"files", "Files"}})},
        {"design", Section("design", "How the two campaigns differ", ListOf(comparison.differences, "plain"))},
        {"results", NoiseSection(comparison) + Section("rates", "Rates", rates) +
                        Section("steps", "Steps of a run", steps) + CommandSection(file_a, file_b) +
                        FilesBeside()},
        {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+}
+
+std::string SolversPage(const SolversCompared& compared, const std::string& about) {
+  std::string command = "stiction report";
+  for (const std::string& file : compared.files) command += " " + ShellWord(file);
+  const Html smallest =
+      compared.smallest.rows.empty() ? Tag("p")("No failure was found.") : ToHtml(compared.smallest);
+  const Html note = Tag("p", {{"class", "note"}})(about) + Html("\n");
+  Html files;
+  for (const char* name : {"solvers.csv", "failures.csv", "smallest.csv", "solvers.txt", "SHA256SUMS"})
+    files += Tag("li")(Tag("a", {{"href", name}})(name)) + Html("\n");
+  const std::string page(std::begin(kComparisonTemplate), std::end(kComparisonTemplate));
+  return FilledTemplate(
+      page,
+      {{"title", Text("stiction: solvers side by side")},
+       {"header", Header("Solvers under test, side by side", "Which solver fails, how, and how often?", Html(),
+                         {{"design", "Solvers"},
+                          {"failures", "Failures"},
+                          {"smallest", "Smallest problems"},
+                          {"again", "Making it again"},
+                          {"files", "Files"}})},
+       {"design",
+        Section("design", "Solvers", ToHtml(compared.solvers)) +
+            Section("differences", "How their searches differ besides", ListOf(compared.differences, "plain"))},
+       {"results",
+        Section("failures", compared.failures.caption, note + ToHtml(compared.failures)) +
+            Section("smallest", compared.smallest.caption, smallest) +
+            Section("again", "Making it again", Tag("pre")(Tag("code")(command + " -o DIR")) + Html("\n")) +
+            Section("files", "Files beside this page", Tag("ul")(files) + Html("\n"))},
+       {"data", ScriptData(R"({"figures": {}})")}});
 }
 
 }  // namespace stiction

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/comparison/solvers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "corpus/json.h"
+#include "corpus/plain_text.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/problem_file.h"
+#include "reports/comparison/comparison_page.h"
+#include "reports/report_files.h"
+
+namespace stiction {
+namespace {
+
+using CountsByName = std::map<std::string, std::int64_t>;  // of UnderTestTally, "silent_wrong"
+// The first is "all"; then by generator and number of contacts.
+using CountsByFamily = std::map<std::pair<std::string, int>, CountsByName>;
+
+constexpr const char* kAllProblems = "all";
+
+std::vector<std::string> KindColumns() {
+  std::vector<std::string> names;
+  ForEachCounter(UnderTestTally{}, [&names](std::string_view name, std::int64_t) {
+    std::string kind(name);
+    std::ranges::replace(kind, '_', '-');
+    if (IsOfSolver(kind)) names.emplace_back(name);
+  });
+  return names;
+}
+
+CountsByFamily CountsOf(const Record& record) {
+  CountsByFamily families;
+  for (const auto& [key, tally] : record.under_test) {
+    for (const auto& family : {std::pair(std::string(), 0), std::pair(key.generator, key.contacts)})
+      ForEachCounter(
+          tally, [&counts = families[family]](const char* name, std::int64_t value) { counts[name] += value; });
+  }
+  families[{"", 0}];  // of an empty store
+  return families;
+}
+
+Json SolverOf(const CampaignIdentity& identity) {
+  const Json definition = JsonOrText(identity.definition);
+  return definition.is_object() ? definition.value("solver", Json()) : Json();
+}
+
+// Names of the solvers; with the file where two have one name.
+std::vector<std::string> NamesOfSolvers(const std::vector<Store>& stores,
+                                        const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const Store& store : stores) {
+    const Json solver = SolverOf(store.identity());
+    names.push_back(
+        fmt::format("{} {}", solver["name"].get<std::string>(), solver["version"].get<std::string>()));
+  }
+  std::vector<std::string> shown = names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::ranges::count(names, names[i]) > 1) shown[i] += fmt::format(" ({})", files[i]);
+  return shown;
+}
+
+// Of each search what it has otherwise than the first.
+std::vector<std::string> DifferencesOfSearches(const std::vector<Store>& stores,
+                                               const std::vector<std::string>& files) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 1; i < stores.size(); ++i) {
+    for (const auto& [part, of_first, of_this] : DifferencesOf(stores[0].identity(), stores[i].identity())) {
+      if (!part.starts_with("solver "))
+        lines.push_back(fmt::format("{}: {} in {}, {} in {}", part, of_first.empty() ? "none" : of_first,
+                                    files[0], of_this.empty() ? "none" : of_this, files[i]));
+    }
+  }
+  if (lines.empty()) lines.emplace_back("none: all were given the same problems, as far as each search went");
+  return lines;
+}
+
+Table SolversTable(const std::vector<Store>& stores, const std::vector<std::string>& files,
+                   const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
+  Table table{"solvers", "Solvers", Columns("solver* store* law* accuracy* problems refused unjudged")};
+  table.columns.insert(table.columns.begin() + 5,
+                       {"passed,of,share,low,high", "with the exact interval at 95 %"});
+  for (std::size_t i = 0; i < stores.size(); ++i) {
+    const Json solver = SolverOf(stores[i].identity());
+    CountsByName of = counts[i].at({"", 0});
+    table.Add({names[i], files[i], solver["law"].get<std::string>(), solver["accuracy"].get<std::string>(),
+               of["problems"], ShareOf(of["passed"], of["problems"]), of["refused"], of["unjudged"]});
+  }
+  return table;
+}
+
+Table FailuresTable(const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
+  Table table{"failures", "Failures, in a million problems", Columns("family* contacts solver* problems")};
+  table.keys = 3;
+  const std::vector<std::string> kinds = KindColumns();
+  for (const std::string& kind : kinds) {
+    std::string head = kind;
+    std::ranges::replace(head, '_', '-');
+    table.columns.push_back({fmt::format("{0},,{0}_rate,{0}_low,{0}_high", kind),
+                             "in a million, with the exact interval at 95 %", false, head});
+  }
+  CountsByFamily all;
+  for (const CountsByFamily& of : counts) all.insert(of.begin(), of.end());
+  for (const auto& [family, unused] : all) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto found = counts[i].find(family);
+      if (found == counts[i].end()) continue;
+      CountsByName of = found->second;
+      const bool is_all = family.first.empty();
+      std::vector<TableCell> cells = {is_all ? kAllProblems : family.first,
+                                      is_all ? TableCell() : TableCell(family.second), names[i],
+                                      of["problems"]};
+      for (const std::string& kind : kinds) cells.emplace_back(RateOf(of[kind], of["problems"]));
+      table.Add(cells);
+    }
+  }
+  return table;
+}
+
+// "A = 2 -1, -1 1; b = 0 -1; mu = 1/2"; of more than six rows their number.
+std::string ProblemInWords(const ExactProblem& problem) {
+  constexpr int kMostRowsShown = 6;
+  if (problem.rows() > kMostRowsShown) return fmt::format("{} rows", problem.rows());
+  std::string A, b, mu;
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) A += (j > 0 ? " " : i > 0 ? ", " : "") + ToString(problem.A(i, j));
+    b += (i > 0 ? " " : "") + ToString(problem.b[i]);
+  }
+  for (const auto& contact : problem.contacts)
+    if (contact.HasFrictionRows()) mu += (mu.empty() ? "; mu = " : " ") + ToString(contact.mu);
+  return fmt::format("A = {}; b = {}{}", A, b, mu);
+}
+
+Table SmallestTable(const std::vector<Store>& stores, const std::vector<std::string>& names) {
+  Table table{"smallest", "The smallest problem of each kind of failure",
+              Columns("kind* solver* finding* times contacts minimized* problem*")};
+  table.keys = 2;
+  std::map<std::tuple<std::string, std::size_t>, std::tuple<bool, std::size_t, Finding>> least;
+  for (std::size_t i = 0; i < stores.size(); ++i) {
+    for (const Finding& finding : stores[i].Findings()) {
+      const bool raw = finding.minimized.empty();
+      const std::size_t size = (raw ? finding.problem : finding.minimized).size();
+      const auto [at, is_new] = least.try_emplace({finding.kind, i}, raw, size, finding);
+      if (!is_new && std::pair(raw, size) < std::pair(std::get<0>(at->second), std::get<1>(at->second)))
+        at->second = {raw, size, finding};
+    }
+  }
+  for (const auto& [key, value] : least) {
+    const auto& [raw, size, finding] = value;
+    const std::size_t i = std::get<1>(key);
+    const ExactProblem problem =
+        ParseProblem(raw ? finding.problem : finding.minimized, finding.signature).problem;
+    const auto signatures = stores[i].Total().signatures;
+    table.Add({finding.kind, names[i], finding.signature, signatures.at(finding.signature),
+               problem.contacts.size(), !raw, ProblemInWords(problem)});
+  }
+  return table;
+}
+
+constexpr const char* kAboutRates =
+    "Each solver by its own law, to the accuracy that it states. In brackets: exact intervals at 95 %. Given "
+    "up "
+    "where no solution is known (refused), and called solved where what the law asks for is not known "
+    "(unjudged), "
+    "are no failures.";
+
+}  // namespace
+
+SolversCompared CompareSolvers(const std::vector<Store>& stores, const std::vector<std::string>& files) {
+  std::vector<CountsByFamily> counts;
+  for (const Store& store : stores) counts.push_back(CountsOf(store.Total()));
+  const std::vector<std::string> names = NamesOfSolvers(stores, files);
+  return {files, DifferencesOfSearches(stores, files), SolversTable(stores, files, names, counts),
+          FailuresTable(names, counts), SmallestTable(stores, names)};
+}
+
+std::string SolversText(const SolversCompared& c) {
+  std::string text = Heading("Solvers") + ToText(c.solvers) + "\n" + Heading("How the searches differ besides");
+  for (const std::string& line : c.differences) text += Paragraph(line);
+  text += "\n" + Heading(c.failures.caption) + Paragraph(kAboutRates, 0) + ToText(c.failures);
+  if (!c.smallest.rows.empty()) text += "\n" + Heading(c.smallest.caption) + ToText(c.smallest);
+  return text;
+}
+
+Json SolversToJson(const SolversCompared& c) {
+  return {{"differences", c.differences},
+          {"solvers", ToJson(c.solvers)},
+          {"failures", ToJson(c.failures)},
+          {"smallest", ToJson(c.smallest)}};
+}
+
+std::filesystem::path WriteSolvers(const SolversCompared& compared, const std::filesystem::path& directory,
+                                   Occupied occupied) {
+  WholeFolder whole(directory, "report", occupied);
+  ReportFiles folder(whole);
+  const FixedTextWidth of_the_file(kUsualTextWidth);
+  folder.Write("solvers.txt", SolversText(compared));
+  folder.Write("index.html", SolversPage(compared, kAboutRates));
+  for (const Table* table : {&compared.solvers, &compared.failures, &compared.smallest})
+    folder.Write(table->name + ".csv", ToCsv(*table));
+  folder.WriteSums();
+  return whole.Commit();
+}
+
+}  // namespace stiction
