@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A right solver of the frictionless problem, by trying which contacts press; and with -DBUG_... one that is wrong
- * where under_test_test.py says. -DRARE makes the conditions of the bugs as rare as they are asked to be. */
+ * where under_test_test.py says. -DLAW says another law. -DRARE makes the conditions of the bugs as rare as they are asked to be. */
 #include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "search/under_test/stiction_solver.h"
 
+#ifndef LAW
+#define LAW "frictionless"
+#endif
+
 enum { MOST = 16 };
 static const double TINY = 1e-11;
 
-static const stiction_solver_info info = {STICTION_SOLVER_INTERFACE, "toy", "1", "frictionless", 1e-6};
+static const stiction_solver_info info = {STICTION_SOLVER_INTERFACE, "toy", "1", LAW, 1e-6};
 const stiction_solver_info* stiction_solver_describe(void) { return &info; }
 void* stiction_solver_create(void) { return malloc(1); }
 void stiction_solver_destroy(void* solver) { free(solver); }
@@ -67,8 +71,16 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
   const int rare = twins && b[0] < 0 && A[1] == 1, rarer = rare && n > 2 && b[2] < 0;
 #endif
   (void)rare, (void)rarer;
+#ifdef BUG_LIES /* calls no forces at all a solution */
+  for (int i = 0; i < n; ++i) f[i] = 0;
+  return 1;
+#endif
 #ifdef BUG_LEAK
   if (b[0] < 0) *(volatile char*)malloc(48) = 1;
+#endif
+#ifdef BUG_SLOW /* where forces are large */
+  for (volatile long turn = 0; turn < (long)(b[0] * b[0]) * 10; ++turn) {
+  }
 #endif
 #ifdef BUG_HANG
   for (volatile int turning = rarer; turning;) {

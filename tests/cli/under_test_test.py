@@ -28,7 +28,7 @@ class UnderTest(cli.TestCase):
     @classmethod
     def toy(cls, *bugs):
         """The toy solver with these bugs."""
-        library = cls.common / ("-".join(("toy",) + bugs) + ".so")
+        library = cls.common / ("-".join(("toy",) + bugs).replace('"', "") + ".so")
         if not library.exists():
             subprocess.run(["cc", "-shared", "-fPIC", "-O1", f"-I{cli.ROOT}", *(f"-D{bug}" for bug in bugs), TOY, "-lm",
                             "-o", library], check=True)
@@ -52,9 +52,10 @@ class UnderTest(cli.TestCase):
 
     def smallest(self, solver, kind, **options):
         """The minimized problem of what a solver is found to do, which is of this kind alone."""
-        done = self.search(solver, f"{kind}.store", **options)
+        store = f"{kind}.store"
+        done = self.search(solver, store, **options)
         self.assertEqual(done.code, 0, done.err)
-        found = self.findings(f"{kind}.store")
+        found = self.findings(store)
         self.assertTrue(found, done.out)
         self.assertEqual({finding["kind"] for finding in found}, {kind})
         for finding in found:
@@ -64,7 +65,29 @@ class UnderTest(cli.TestCase):
         least = min(found, key=lambda finding: len(finding["minimized"]["contacts"]))
         numbers = [Fraction(x) for row in self.matrix(least["minimized"]) for x in row]
         self.assertTrue(all(x.denominator == 1 and abs(x) <= 20 for x in numbers), least["minimized"])
+        for language in ("c", "python"):
+            self.assertIn("WRONG", self.reproduced(store, least["signature"], language, solver), language)
         return least
+
+    def reproducer(self, store, finding, language):
+        """The program that `export` writes; it fits a screen."""
+        file = self.folder / f"{finding}-{language}.{'py' if language == 'python' else 'c'}"
+        self.succeeds("export", f"{self.folder / store}:{finding}", "--reproducer", language, "-o", file)
+        self.assertLessEqual(len(file.read_text().splitlines()), 60)
+        self.assertIn(finding, file.read_text().split("\n")[0 if language == "c" else 1])
+        return file
+
+    def reproduced(self, store, finding, language, solver, wrong=True):
+        """What the program says of a solver; it is held against the exit code."""
+        file = self.reproducer(store, finding, language)
+        command = ["python3", file, solver]
+        if language == "c":
+            command = [file.with_suffix("")]
+            subprocess.run(["cc", "-Wall", "-Wextra", "-Werror", f"-I{cli.ROOT}/search/under_test", file, solver, "-lm", "-o",
+                            *command], check=True)
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (int(wrong), ""), done.stdout)
+        return done.stdout
 
     @staticmethod
     def matrix(problem):
@@ -108,12 +131,10 @@ class UnderTest(cli.TestCase):
         least = self.smallest(self.toy("BUG_HANG"), "hang", contacts=(3,), problems=2000, unit=4000)
         self.assertEqual(len(least["minimized"]["contacts"]), 3)
 
-    def test_a_leak_is_found(self):
-        done = self.search(self.toy("BUG_LEAK"), "leak.store", contacts=(1,), problems=4000, finishing=0)
-        self.assertEqual(done.code, 0, done.err)
-        found = self.findings("leak.store")
-        self.assertEqual([finding["signature"] for finding in found], ["leak-1c"], done.out)
-        self.assertGreaterEqual(found[0]["facts"]["found"]["bytes"], 48)
+    def test_a_leak_is_found_and_its_problem_made_small(self):
+        least = self.smallest(self.toy("BUG_LEAK"), "leak", contacts=(2,), problems=2000, unit=4000)
+        self.assertEqual(len(least["minimized"]["contacts"]), 1)
+        self.assertGreaterEqual(least["facts"]["minimized"]["bytes"], 48)
 
     def test_a_solution_that_is_refused_stands_beside_the_finding(self):
         least = self.smallest(self.toy("BUG_REFUSES"), "refused-solvable")
@@ -123,6 +144,117 @@ class UnderTest(cli.TestCase):
         file.write_text(json.dumps(certificate))
         checked = subprocess.run(["python3", cli.ROOT / "certify/check_certificate.py", file], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    # ---- Reproducers ----
+
+    def test_a_solver_that_is_mended_is_not_called_wrong(self):
+        self.search(self.toy("BUG_TIE"), "tie.store", problems=4000)
+        finding = self.findings("tie.store")[0]["signature"]
+        for language in ("c", "python"):
+            said = self.reproduced("tie.store", finding, language, self.toy(), wrong=False)
+            self.assertIn("not seen here", said)
+
+    def test_right_forces_hold_under_every_law(self):
+        for law, generator in (("box", "integers"), ("findex", "psd"), ("pyramid", "integers"), ("coulomb", "integers"),
+                               ("coulomb", "space")):
+            store, liar = f"{law}-{generator}.store", self.toy("BUG_LIES", f'LAW="{law}"')
+            self.search(liar, store, generator=generator, contacts=(2,), problems=40, unit=40, finishing=0)
+            finding = self.findings(store)[0]["signature"]
+            for language in ("c", "python"):
+                self.assertIn("WRONG: row", self.reproduced(store, finding, language, liar))
+            text = self.reproducer(store, finding, "python").read_text()
+            scope = {}
+            exec(text[:text.index("\nclass Problem")] + text[text.index("def misses"):text.index("solved, f = ")], scope)
+            right = scope["RIGHT"]
+            self.assertTrue(right, store)
+            a = [b + sum(Fraction(x) * y for x, y in zip(row, right)) for row, b in zip(scope["A"], map(Fraction, scope["B"]))]
+            by, what = max(scope["misses"]([float(x) for x in right], [float(x) for x in a]))
+            self.assertLess(by, 1e-7, (store, what, right))
+
+    def test_what_has_no_reproducer_is_refused(self):
+        self.search(self.toy("BUG_LIES", 'LAW="box"'), "box.store", problems=40, unit=40, finishing=0)
+        finding = f"{self.folder}/box.store:{self.findings('box.store')[0]['signature']}"
+        out = ("-o", self.folder / "out.c")
+        self.refuses("export", finding, "--reproducer", "ode", *out, says=["box", "frictionless or findex"])
+        self.refuses("export", finding, "--reproducer", "fortran", *out, says=["--reproducer", "python"])
+        self.refuses("export", finding, *out, says=["--format", "--reproducer"])
+        self.refuses("export", finding, "--reproducer", "c", "--format", "fclib", *out, says=["--reproducer", "--format"])
+        self.refuses("export", self.file("p.json", cli.REFERENCE), "--reproducer", "c", *out, says=["STORE:FINDING"])
+        self.search(self.program("import sys\nprint('{\"protocol\": 1, \"solver\": \"x\", \"version\": \"1\", \"law\": "
+                                 "\"box\", \"accuracy\": 1}', flush=True)\nsys.stdin.readline()\n"), "p.store",
+                    contacts=(1,), problems=1, unit=1, finishing=0)
+        self.refuses("export", f"{self.folder}/p.store:crash", "--reproducer", "c", *out, says=["program", "python"])
+
+    # ---- Objectives ----
+
+    def test_what_a_solver_calls_solved_is_made_worse(self):
+        options = ("--objective", "error", "--json")
+        one, two = (self.search(self.toy("BUG_TIE"), store, *options, "--threads", threads, contacts=(2,), unit=1000,
+                                finishing=0) for store, threads in (("one", 1), ("two", 2)))
+        self.assertEqual(one.code, 0, one.err)
+        self.assertSameContent(self.folder / "two", self.folder / "one")
+        told = one.json()
+        self.assertGreater(told["best"][0]["value"], 0)  # random problems: -16, and at a tie what it breaks
+        self.assertIn("silent-wrong", {group["kind"] for group in told["groups"]})
+        best = self.folder / "best.json"
+        self.succeeds("problem", self.folder / "one", "--best", "-o", best)
+        problem = json.loads(best.read_text())
+        self.assertEqual((problem["A"][0][0], problem["b"][0]), (problem["A"][2][2], problem["b"][2]))
+        self.assertIn("WRONG", self.reproduced("one", told["groups"][0]["signature"], "c", self.toy("BUG_TIE")))
+        self.assertIn("failures of", self.succeeds("status", self.folder / "one").out)
+        self.refuses("report", self.folder / "one", self.folder / "two", says=["optimized"])
+
+    def test_a_solver_is_made_slow(self):
+        done = self.search(self.toy("BUG_SLOW"), "slow", "--objective", "time", "--json", contacts=(2,), problems=1000,
+                           unit=1000, finishing=0)
+        self.assertGreater(done.json()["best"][0]["value"], -4)
+
+    def test_objectives_have_their_searches(self):
+        refused = self.search(self.toy(), "no", "--objective", "steps", problems=1)
+        self.assertEqual(refused.code, 2)
+        self.assertIn("expected error or time", refused.err)
+        self.refuses("search", "--objective", "error", "--store", self.folder / "no", says=["error", "--solver"])
+
+    # ---- Side by side ----
+
+    def test_solvers_side_by_side(self):
+        solvers = {"right": self.toy(), "tie": self.toy("BUG_TIE"), "refuses": self.toy("BUG_REFUSES")}
+        for name, solver in solvers.items():
+            self.search(solver, name, problems=4000, finishing=100 if name == "tie" else 0)
+        stores = [self.folder / name for name in solvers]
+        out = self.folder / "page"
+        told = self.succeeds("report", *stores, "-o", out, "--json").json()
+        self.assertEqual(told["differences"], ["none: all were given the same problems, as far as each search went"])
+        rows = [dict(zip(told["failures"]["columns"], row)) for row in told["failures"]["rows"]]
+        by = {(row["family"], row["contacts"], row["solver"].split("(")[1].split("/")[-1].rstrip(")")): row for row in rows}
+        self.assertEqual(by["all", None, "right"]["silent_wrong"], 0)
+        self.assertGreater(by["all", None, "tie"]["silent_wrong"], 0)
+        self.assertGreater(by["integers", 2, "refuses"]["refused_solvable"], 0)
+        count, of = by["all", None, "tie"]["silent_wrong"], by["all", None, "tie"]["problems"]
+        self.assertEqual(sum(by["integers", n, "tie"]["silent_wrong"] for n in (2, 3)), count)
+        self.assertLess(by["all", None, "tie"]["silent_wrong_low"], count / of)
+        self.assertGreater(by["all", None, "tie"]["silent_wrong_high"], count / of)
+        least = [dict(zip(told["smallest"]["columns"], row)) for row in told["smallest"]["rows"]]
+        self.assertEqual({row["kind"] for row in least}, {"silent-wrong", "refused-solvable"})
+        wrong = next(row for row in least if row["kind"] == "silent-wrong")
+        self.assertEqual((wrong["contacts"], wrong["minimized"]), (2, "yes"))
+        self.assertRegex(wrong["problem"], r"^A = -?\d+ -?\d+, -?\d+ -?\d+; b = -?\d+ -?\d+$")
+        self.assertEqual(sorted(file.name for file in out.iterdir()),
+                         ["SHA256SUMS", "failures.csv", "index.html", "smallest.csv", "solvers.csv", "solvers.txt"])
+        page = (out / "index.html").read_text()
+        self.assertIn(wrong["problem"], page)
+        self.assertNotIn("{{", page)
+        text = self.succeeds("report", *stores).out
+        self.assertEqual((out / "solvers.txt").read_text(), text)
+        self.assertIn("silent-wrong", text)
+
+    def test_what_cannot_stand_side_by_side_is_refused(self):
+        self.search(self.toy(), "a.store", problems=1)
+        own = self.folder / "own.store"
+        cli.run("search", "-g", "psd", "-c", 2, "--problems", 1, "--store", own)
+        self.refuses("report", self.folder / "a.store", own, says=[own, "one that tests a solver"])
+        self.refuses("report", own, self.folder / "a.store", says=["a.store", "published algorithm"])
+        self.refuses("report", own, own, own, says=["found 3 stores"])
 
     # ---- A campaign as all are ----
 
@@ -140,7 +272,8 @@ class UnderTest(cli.TestCase):
         self.search(self.toy(), "a.store", problems=1)
         refused = self.search(EXAMPLE, "a.store", problems=1)
         self.assertEqual(refused.code, 2)
-        self.assertIn("projected Gauss-Seidel", refused.err)
+        self.assertIn("solver name toy, not projected Gauss-Seidel", refused.err)
+        self.assertNotIn("{", refused.err)
         alone = cli.run("search", "--finish", "--store", self.folder / "a.store")
         self.assertEqual(alone.code, 2)
         self.assertIn("--solver", alone.err)
@@ -175,6 +308,7 @@ class UnderTest(cli.TestCase):
                                finishing=0)
             self.assertEqual(done.code, 0, done.err)
             self.assertEqual([finding["signature"] for finding in self.findings(name)], [signature])
+            self.assertIn("WRONG", self.reproduced(name, signature, "python", self.folder / "program.py"))
 
     def test_what_cannot_be_run_is_refused_by_its_name(self):
         nothing = self.folder / "nothing.so"
