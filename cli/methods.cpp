@@ -7,16 +7,13 @@
 
 #include "certify/request/solve_in.h"
 #include "cli/command_line.h"
+#include "cli/narration/listed.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
-
-constexpr std::array kShown = {Arithmetic::kFloat, Arithmetic::kDouble,   Arithmetic::kLongDouble,
-                               Arithmetic::kQuad,  Arithmetic::kInterval, Arithmetic::kFiltered,
-                               Arithmetic::kExact};
 
 // "plane space", "plane", "space" or "-".
 std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
@@ -27,18 +24,18 @@ std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
 
 std::string Table() {
   std::vector<std::string> head = {"method"};
-  for (const Arithmetic arithmetic : kShown) head.emplace_back(Name(arithmetic));
+  for (const Arithmetic arithmetic : kShownArithmetics) head.emplace_back(Name(arithmetic));
   TextTable table(std::move(head), 1);
   std::size_t refused = 0;
   for (const MethodFacts& facts : AllMethods()) {
     std::vector<std::string> cells = {std::string(facts.name)};
-    for (const Arithmetic arithmetic : kShown) {
+    for (const Arithmetic arithmetic : kShownArithmetics) {
       cells.push_back(WhereBuilt(facts, arithmetic));
       for (const int dimension : {2, 3}) refused += !facts.IsBuilt(dimension, arithmetic);
     }
     table.AddRow(std::move(cells));
   }
-  const std::size_t all = 2 * kShown.size() * AllMethods().size();
+  const std::size_t all = 2 * kShownArithmetics.size() * AllMethods().size();
   return table.Done() + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
 }
 
@@ -50,23 +47,8 @@ std::string Facts() {
   return text;
 }
 
-Json TableInJson() {
-  Json json = Json::array();
-  for (const MethodFacts& facts : AllMethods()) {
-    Json row = {{"name", facts.name},    {"title", facts.title},    {"source", facts.source},
-                {"ends", facts.ends},    {"path", facts.HasPath()}, {"plane", Json::array()},
-                {"space", Json::array()}};
-    for (const Arithmetic arithmetic : kShown) {
-      if (facts.IsBuilt(2, arithmetic)) row["plane"].push_back(Name(arithmetic));
-      if (facts.IsBuilt(3, arithmetic)) row["space"].push_back(Name(arithmetic));
-    }
-    json.push_back(std::move(row));
-  }
-  return json;
-}
-
 int List(const bool& json) {
-  std::cout << (json ? JsonText(TableInJson()) + "\n" : Table() + Folded(Facts()));
+  std::cout << (json ? JsonText(MethodsToJson()) + "\n" : Table() + Folded(Facts()));
   return kExitDone;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/command_line.h"
+#include "cli/narration/listed.h"
 #include "cli/shared.h"
 #include "corpus/json_text.h"
 
@@ -11,27 +12,17 @@ namespace stiction {
 namespace {
 
 int ListPolicies(const bool& json) {
-  Json rows = Json::array();
+  if (json) {
+    std::cout << JsonText(PoliciesToJson()) << "\n";
+    return kExitDone;
+  }
   for (const PolicySwitchRow& row : PolicySwitches()) {
-    Json values = Json::array();
-    for (const PolicyValue& value : row.values)
-      values.push_back({{"value", value.name}, {"meaning", value.meaning}});
-    rows.push_back({{"switch", row.name},
-                    {"question", row.question},
-                    {"reads", row.reads},
-                    {"planar", row.planar},
-                    {"values", values}});
-    if (json) continue;
     Tell("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
          row.reads);
     for (const PolicyValue& value : row.values) Tell("    {:14}  {}\n", value.name, value.meaning);
   }
-  if (json) {
-    std::cout << JsonText(rows) << "\n";
-  } else {
-    Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
-         PlanarGrid().size());
-  }
+  Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+       PlanarGrid().size());
   return kExitDone;
 }
 

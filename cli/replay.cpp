@@ -17,8 +17,8 @@
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/over_intervals.h"
+#include "cli/narration/page_of_run.h"
 #include "cli/narration/problem_text.h"
-#include "cli/replay_file.h"
 #include "cli/shared.h"
 #include "cli/version.h"
 #include "cli/words.h"
@@ -27,10 +27,17 @@
 #include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "reports/pictures/moving_picture.h"
+#include "reports/pictures/problem_picture.h"
 #include "reports/viewer.h"
 
 namespace stiction {
 namespace {
+
+// What a method is followed on: a problem, and the picture of its scene, or null.
+struct ReplayFile {
+  ProblemFile file;
+  Json picture;
+};
 
 struct ReplayOptions : Wanted {
   ReplayOptions() { method = "baraff"; }
@@ -104,21 +111,11 @@ std::string CommandOf(const ReplayOptions& o) {
   return command + " --html OUT";
 }
 
-// The run itself, with what intervals say of it, and beside it complete driving.
 void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
                const std::optional<InexactAnswer>& over_intervals) {
   const ProblemFile& file = replay.file;
-  std::vector<FollowedRun> runs = {Followed(o.path(), file, solution)};
-  if (over_intervals) TellOverIntervals(*over_intervals, runs[0]);
-  ReplayOptions beside = o;
-  beside.method = "complete";
-  beside.arithmetic = "";
-  beside.policy = Wanted().policy;
-  if (o.method != beside.method) {
-    const SolveRequest request = PathRequestOf(beside, file.problem, o.file);
-    runs.push_back(Followed(beside.path(), file, SolveAsked(file.problem, request, o.file)));
-  }
-  WriteText(o.html, ViewerPage(file.name + ", step by step", ReplayPageData(file, replay.picture, runs),
+  WriteText(o.html, ViewerPage(file.name + ", step by step",
+                               PageOfRun(o, replay.file, o.file, replay.picture, solution, over_intervals),
                                {CommandOf(o), Version(), ProblemDigest(file.problem)}));
 }
 
@@ -257,7 +254,8 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
 }
 
 int Replay(const ReplayOptions& o) {
-  const ReplayFile replay = ReadReplayFile(o.file);
+  ReplayFile replay{ReadProblem(o.file), {}};
+  replay.picture = PictureBeside(replay.file, o.file);
   if (!o.all_policies) return ReplayOne(o, replay);
   if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
   if (!o.svg.empty()) throw InputError("--svg: found --all-policies, expected one policy");

@@ -17,6 +17,7 @@
 #include "corpus/json.h"
 #include "corpus/output_error.h"
 #include "corpus/record/scene_file.h"
+#include "corpus/record/scene_problems.h"
 #include "reports/animation.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/rounded_scene.h"
@@ -31,9 +32,9 @@ namespace fs = std::filesystem;
 // ---- assemble --------------------------------------------------------------------------------
 
 // The words of `assemble`; `draw` takes scene, output and json alone.
-struct AssembleCommand {
-  std::string scene, output, given, level = "forces";
-  bool explain = false, factors = false, full = false, json = false;
+struct AssembleCommand : SceneProblemOptions {
+  std::string scene, output, given;
+  bool explain = false, json = false;
 };
 
 // FILE.json of one problem; FILE-1.json, FILE-2.json, ... of several.
@@ -74,9 +75,7 @@ SceneFileIn<Kind> WithGivenContacts(SceneFileIn<Kind> file,
 template <class Kind>
 int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto contacts = FindContacts(file.scene);
-  AssembleOptions<Rational> options;
-  options.level = o.level == "impulses" ? Level::kImpulses : Level::kForces;
-  options.minimal = !o.full;
+  const AssembleOptions<Rational> options = o.assembly();
   const auto model = Assemble(file.scene, contacts, options);
   if (!o.given.empty()) WriteText(o.given, Print(WithGivenContacts(file, contacts)));
   std::string text;
@@ -93,23 +92,14 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
                     "(--full keeps them together)",
                     o.scene, model.islands.size()));
   }
-  for (std::size_t i = 0; i < model.islands.size(); ++i) {
-    ProblemFile problem;
-    if (o.factors) {
-      problem.factors = model.InFactors(i);
-      problem.problem = {problem.factors->dimension, problem.factors->contacts, {}, problem.factors->b};
-    } else {
-      problem.problem = model.Problem(i);
-    }
-    problem.name = file.scene.name;
-    if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
-    problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
-    if (o.full) problem.scene = ToJson(file);
-    const std::string name = NumberedFile(o.output, i, model.islands.size());
-    WriteText(name, Print(problem));
-    const auto many = problem.problem.contacts.size();
-    text += fmt::format("{}: {} contacts, {} rows\n", name, many, problem.problem.rows());
-    written.push_back({{"file", name}, {"contacts", many}, {"rows", problem.problem.rows()}});
+  const std::vector<ProblemFile> problems = ProblemsOf(file, model, o);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const ExactProblem& problem = problems[i].problem;
+    const std::string name = NumberedFile(o.output, i, problems.size());
+    WriteText(name, Print(problems[i]));
+    const auto many = problem.contacts.size();
+    text += fmt::format("{}: {} contacts, {} rows\n", name, many, problem.rows());
+    written.push_back({{"file", name}, {"contacts", many}, {"rows", problem.rows()}});
   }
   if (model.islands.empty()) text += "no contacts and no joints: nothing to solve\n";
   if (o.explain) {

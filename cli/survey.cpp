@@ -14,7 +14,7 @@
 
 #include "cli/command_line.h"
 #include "cli/shared.h"
-#include "cli/surveyed.h"
+#include "cli/narration/surveyed.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json.h"
 

@@ -73,12 +73,13 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
   return moving;
 }
 
-// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved.
-void PreferRest(const ContactProblem<double>& rounded, const ExactProblem& problem, const SolveRequest& request,
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; `exact`: that of
+// which it is a rounding, or null where it is the same.
+void PreferRest(const ContactProblem<double>& rounded, const ExactProblem* exact, const SolveRequest& request,
                 InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const auto rest = ForcesAtRest(problem, f, Moving(rounded, answer));
+  const auto rest = ForcesAtRest(exact != nullptr ? *exact : Unrounded(rounded), f, Moving(rounded, answer));
   if (!rest) return;
   InexactAnswer resting = answer;
   resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
@@ -175,26 +176,32 @@ std::optional<InexactAnswer> SolveByFactors(const SolveRequest& request) {
   return answer;
 }
 
+// `exact`: as of PreferRest.
 template <class Scalar>
-Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
-  const ContactProblem<Scalar> rounded = Rounded<Scalar>(problem);
+Solution SolveRounded(const ContactProblem<Scalar>& rounded, const ExactProblem* exact,
+                      const SolveRequest& request) {
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
     if (auto answer = SolveByFactors(request)) {
-      PreferRest(rounded, problem, request, *answer);
+      PreferRest(rounded, exact, request, *answer);
       return {.answer = *std::move(answer)};
     }
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
       solution = SolveEscalating(rounded, request.options);
-      PreferRest(rounded, problem, request, std::get<InexactAnswer>(solution.answer));
+      PreferRest(rounded, exact, request, std::get<InexactAnswer>(solution.answer));
       return solution;
     }
   }
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
   const auto ran = Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); });
   Confirm(ran, request, solution);
-  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, problem, request, *answer);
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, exact, request, *answer);
   return solution;
+}
+
+template <class Scalar>
+Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
+  return SolveRounded(Rounded<Scalar>(problem), &problem, request);
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -248,7 +255,7 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
       PreferRest(problem, request, *exact);
     } else {
-      PreferRest(Rounded<double>(problem), problem, request, std::get<InexactAnswer>(solution.answer));
+      PreferRest(Rounded<double>(problem), &problem, request, std::get<InexactAnswer>(solution.answer));
     }
     return solution;
   }
@@ -315,6 +322,11 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
   if (Refusal(method, problem.dimension, kInterval).empty())
     return {kInterval, "the method takes roots: intervals prove what they decide"};
   return {kDouble, "the method is built for nothing better"};
+}
+
+Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request) {
+  RequireReading(ExactProblem{.dimension = problem.dimension, .contacts = {}, .A = {}, .b = {}}, request);
+  return SolveRounded(problem, nullptr, request);
 }
 
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {

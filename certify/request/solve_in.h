@@ -56,6 +56,10 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 // InputError where the published algorithm in space has no such reading.
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request);
 
+// The same of doubles over doubles, with no rationals but where it takes them: the answer of SolveIn,
+// arithmetic kDouble, of the rationals that they are. Requires finite numbers.
+Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request);
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_REQUEST_SOLVE_IN_H_

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/pictures/problem_picture.h"
 
+#include "corpus/input_error.h"
 #include "corpus/json.h"
+#include "corpus/record/problem_file.h"
 #include "reports/pictures/draw_bodies.h"
+#include "reports/pictures/rounded_scene.h"
 #include "scene/simulate.h"
 
 namespace stiction {
@@ -48,6 +51,33 @@ Json PictureOfProblem(const SceneIn<Kind, double>& scene,
     places.push_back({{"at", InPicture(screen.X(at), screen.Y(at))}, {"rows", WaysOf(scene, constraint)}});
   }
   return {{"svg", DrawSvg(scene, view, MarksIn<Kind>(), 1)}, {"contacts", std::move(places)}};
+}
+
+namespace {
+
+bool AreSame(const ExactProblem& left, const ExactProblem& right) {
+  return ProblemToJson(left) == ProblemToJson(right);
+}
+
+// The picture of the scene, if this is its one problem.
+template <class Kind>
+Json PictureOf(const SceneFileIn<Kind>& scene, const ExactProblem& problem, const std::string& source) {
+  const auto contacts = FindContacts(scene.scene);
+  const auto model = Assemble(scene.scene, contacts);
+  if (model.islands.size() != 1 || !AreSame(model.Problem(0), problem)) return nullptr;
+  return PictureOfProblem(RoundedScene(scene, source), contacts, model, model.islands[0]);
+}
+
+}  // namespace
+
+Json PictureBeside(const ProblemFile& file, const std::string& source) {
+  if (!file.scene) return nullptr;
+  try {
+    const auto scene = ParseAnyScene(JsonText(*file.scene), source + ": scene");
+    return std::visit([&](const auto& each) { return PictureOf(each, file.problem, source); }, scene);
+  } catch (const InputError&) {
+    return nullptr;
+  }
 }
 
 template Json PictureOfProblem(const SceneIn<Plane, double>&, const std::vector<TouchPointIn<Plane, Rational>>&,

@@ -4,12 +4,15 @@
 #ifndef STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
 #define STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
 
+#include <string>
 #include <vector>
 
 #include "corpus/json_text.h"
 #include "scene/assemble.h"
 
 namespace stiction {
+
+struct ProblemFile;  // corpus/record/problem_file.h
 
 // {"svg": "<svg ...>", "contacts": [{"at": [x, y], "rows": [[x, y], ...]}, ...]}, of the contacts of an island
 // in the order of its problem. `at` in pixels of the picture, y down; `rows`: which way a force of 1 N of each
@@ -18,6 +21,10 @@ template <class Kind>
 Json PictureOfProblem(const SceneIn<Kind, double>& scene,
                       const std::vector<TouchPointIn<Kind, Rational>>& contacts,
                       const ModelIn<Kind, Rational>& model, const Island& island);
+
+// The picture of the scene that a problem brings along, unless the problem has changed since, or the scene is
+// none.
+Json PictureBeside(const ProblemFile& file, const std::string& source);
 
 }  // namespace stiction
 

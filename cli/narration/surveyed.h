@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a survey finds of one problem: which of the paper's assumptions it meets, what solves it, and how well.
 
-#ifndef STICTION_CLI_SURVEYED_H_
-#define STICTION_CLI_SURVEYED_H_
+#ifndef STICTION_CLI_NARRATION_SURVEYED_H_
+#define STICTION_CLI_NARRATION_SURVEYED_H_
 
 #include <string>
 
@@ -33,4 +33,4 @@ std::string RunsText(const Json& facts);
 
 }  // namespace stiction
 
-#endif  // STICTION_CLI_SURVEYED_H_
+#endif  // STICTION_CLI_NARRATION_SURVEYED_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/surveyed.h"
+#include "cli/narration/surveyed.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/narration/explained.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certify/claims/claims.h"
+#include "certify/claims/robust.h"
+#include "certify/claims/safe.h"
+#include "certify/claims/safety_threshold.h"
+#include "certify/exact/answer_json.h"
+#include "certify/request/request.h"
+#include "certify/request/solve_in.h"
+#include "cli/narration/all_policies.h"
+#include "cli/narration/over_intervals.h"
+#include "cli/narration/surveyed.h"
+#include "corpus/plain_text.h"
+#include "solver/linear/elimination.ipp"
+
+namespace stiction {
+namespace {
+
+constexpr int kFewRows = 24;               // up to here every method runs, and every claim is tried
+constexpr std::size_t kFewContacts = 8;    // up to here every policy runs, and every contact mode is tried
+constexpr int kFewWords = 1 << 10;         // up to here mu is sought below which A is safe
+constexpr std::int64_t kPrograms = 20000;  // linear programs of an enumeration
+
+// ---- What is found ---------------------------------------------------------------------------------
+
+// Contacts by kind, the least and the largest mu, the least and the largest A_ii that is not zero.
+void AddContacts(const SparseProblem& problem, Json& found) {
+  Json kinds = Json::object();
+  std::vector<Rational> mu, diagonal;
+  for (const auto& contact : problem.contacts) {
+    const std::string kind(Name(contact.kind));
+    kinds[kind] = kinds.value(kind, 0) + 1;
+    if (contact.HasFrictionRows()) mu.push_back(contact.mu);
+  }
+  for (const auto& [at, value] : problem.A) {
+    if (at.first == at.second && value != 0) diagonal.push_back(value);
+  }
+  found["kinds"] = kinds;
+  const auto add = [&found](const char* name, const std::vector<Rational>& numbers) {
+    if (numbers.empty()) return;
+    const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+    found[name] = {ToString(*least), ToString(*most)};
+  };
+  add("mu", mu);
+  add("diagonal", diagonal);
+}
+
+int RankOf(const ExactProblem& problem) {
+  Elimination<Rational> system;
+  system.Assign(problem.A);
+  system.Run(problem.rows(), problem.rows(), problem.rows());
+  return system.rank();
+}
+
+// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop.
+Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
+  Wanted wanted;
+  wanted.method = "baraff";
+  wanted.options.limits = o.limits;
+  const std::map<std::string, Json> ends = OutcomesOf(wanted, problem, o.file);
+  std::vector<std::string> looping;
+  Json outcomes = Json::object();
+  for (const Policy& policy : GridOf(problem.dimension)) {
+    const std::string name = PolicyName(policy), outcome = ends.at(name)["outcome"];
+    outcomes[outcome] = outcomes.value(outcome, 0) + 1;
+    if (ends.at(name).contains("period"))
+      looping.insert(name == "paper" ? looping.begin() : looping.end(), name);
+  }
+  Json found = {{"all", ends.size()}, {"outcomes", outcomes}, {"loops", nullptr}};
+  if (looping.empty()) return found;
+  found["loops"] = ends.at(looping[0]);
+  found["loops"]["policy"] = wanted.policy = looping[0];
+  const auto proved = OverIntervals(problem, PathRequestOf(wanted, problem, o.file), Outcome::kCycle);
+  found["loops"]["proved"] = problem.dimension == 2 || (proved && IsLoop(proved->outcome));
+  return found;
+}
+
+// How every method ends that is built for such a problem, in its usual arithmetic.
+Json MethodsOn(const ExactProblem& problem, const ExplainOptions& o) {
+  Json runs = Json::array();
+  for (const MethodFacts& facts : AllMethods()) {
+    Wanted wanted;
+    wanted.method = facts.name;
+    wanted.options.limits = o.limits;
+    try {
+      const SolveRequest request = RequestOf(wanted, problem, o.file);
+      const Solution solution = SolveAsked(problem, request, o.file);
+      Json run = {{"method", facts.name}, {"arithmetic", Name(request.arithmetic)}};
+      run.update(std::visit([](const auto& answer) { return EndToJson(answer); }, solution.answer));
+      runs.push_back(std::move(run));
+    } catch (const InputError&) {  // not built for such problems, or a number is none of the arithmetic's
+    }
+  }
+  return runs;
+}
+
+// The contact modes that have solutions, in the plane.
+Json SolutionsOf(const ExactProblem& problem) {
+  EnumerationOptions options;
+  options.programs = kPrograms;
+  const Enumeration modes = EnumerateModes(problem, options);
+  Json words = Json::array();
+  bool unique = modes.distinct_witnesses == 1;
+  for (const WordSolution& solution : modes.solutions) {
+    words.push_back(WordToJson(solution.word));
+    unique = unique && solution.unique;
+  }
+  return {{"complete", modes.end == EnumerationEnd::kComplete}, {"modes", words}, {"unique", unique}};
+}
+
+// The mu below which A is safe, and how far all numbers of the loop may move while it stays one.
+void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& found) {
+  const bool handled =
+      problem.dimension == 2 && !found["kinds"].contains("bilateral") && !found["kinds"].contains("sliding");
+  if (handled && HasFewWords(problem, kFewWords)) {
+    const auto threshold = FindSafetyThreshold(problem);
+    found["safe_below"] = threshold ? Json(ToString(threshold->low)) : Json();
+  }
+  const Json& loop = found["policies"]["loops"];
+  if (!handled || loop.is_null()) return;
+  const auto radius = RadiusOfLoop(problem, {ParsePolicy(loop["policy"].get<std::string>()), {}, o.limits});
+  found["radius"] = radius ? Json(ToString(*radius)) : Json();
+}
+
+// Every claim that is made of such problems: the certificate that it gets, or null, and the command.
+Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::string& policy) {
+  Json claims = Json::array();
+  ClaimOptions options;
+  options.policies = ParsePolicies(policy);
+  options.limits = o.limits;
+  options.enumeration.programs = kPrograms;
+  const std::string stem = std::filesystem::path(o.file).stem().string();
+  for (const Claim& claim : AllClaims()) {
+    if (claim.certify == nullptr) continue;
+    try {
+      claim.require(problem, o.file);
+      const Json certificate = claim.certify(problem, options);
+      const bool of_runs = claim.name == "cycle" || claim.name == "counterexample";
+      claims.push_back(
+          {{"claim", claim.name},
+           {"meaning", claim.meaning},
+           {"certificate", certificate.is_object() ? certificate["claim"] : Json()},
+           {"command", fmt::format("stiction certify {} --claim {}{} -o {}", ShellWord(o.file), claim.name,
+                                   of_runs && policy != "paper" ? " --policy " + policy : "",
+                                   ShellWord(fmt::format("{}-{}.json", stem, claim.name)))}});
+    } catch (const InputError&) {  // not made of such problems
+    }
+  }
+  return claims;
+}
+
+Json NextOf(const Json& found, const std::string& file) {
+  Json next = Json::array();
+  const auto add = [&](const std::string& verb, const std::string& options, const char* shows) {
+    next.push_back(
+        {{"command", fmt::format("stiction {} {}{}", verb, ShellWord(file), options)}, {"shows", shows}});
+  };
+  add("solve", "", "the forces");
+  if (found.contains("policies")) {
+    const Json& loop = found["policies"]["loops"];
+    const bool other = !loop.is_null() && loop["policy"] != "paper";
+    const std::string policy = other ? " --policy " + loop["policy"].get<std::string>() : "";
+    add("replay", policy + " --step", "the published algorithm, step by step");
+    add("replay", policy + " --html run.html", "the same as a page, beside complete driving");
+    add("replay", " --all-policies", "which policies end how, and what they have in common");
+    if (!loop.is_null() && loop["proved"] == true)
+      add("minimize", policy + " -o smaller.json", "a simpler problem that loops");
+  }
+  if (found.contains("solutions")) add("certify", " --all", "all contact modes that have solutions");
+  if (found.contains("safe_below")) add("certify", " --safe", "where the path of forces can turn back");
+  if (found.contains("radius"))
+    add("certify", " --robust", "how far all numbers may move while the loop stays one");
+  return next;
+}
+
+}  // namespace
+
+Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const ExplainOptions& o) {
+  const auto* file = std::get_if<ProblemFile>(&read);
+  const SparseProblem sparse = file != nullptr ? ToSparse(*file) : WithMatrix(std::get<SparseProblem>(read));
+  Json found = {{"file", o.file}};
+  AddContacts(sparse, found);
+  found["survey"] = Surveyed(sparse, o.file, {.limits = o.limits});
+  if (file != nullptr && file->problem.rows() <= kFewRows) {
+    const ExactProblem& problem = file->problem;
+    std::string policy = "paper";
+    found["rank"] = RankOf(problem);
+    found["methods"] = MethodsOn(problem, o);
+    if (problem.contacts.size() <= kFewContacts) {
+      found["policies"] = PoliciesOn(problem, o);
+      if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
+      AddMargins(problem, o, found);
+      if (const Json& loop = found["policies"]["loops"]; !loop.is_null()) policy = loop["policy"];
+    }
+    found["claims"] = ClaimsOf(problem, o, policy);
+  }
+  found["next"] = NextOf(found, o.file);
+  return found;
+}
+
+namespace {
+
+// ---- In words --------------------------------------------------------------------------------------
+
+std::string NumberOf(std::int64_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string BetweenText(const Json& ends) {
+  const std::string least = ends[0], most = ends[1];
+  return least == most ? least : fmt::format("{} to {}", least, most);
+}
+
+// The certificate that a claim gets; empty where it gets none.
+std::string CertificateFor(const Json& found, std::string_view claim) {
+  for (const Json& each : found.value("claims", Json::array())) {
+    if (each["claim"] == claim && each["certificate"].is_string()) return each["certificate"];
+  }
+  return "";
+}
+
+std::string ProblemText(const Json& found) {
+  const Json& facts = found["survey"];
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(count.dump() + " " + kind);
+  std::string text = fmt::format("{} {}: {}", NumberOf(facts["contacts"], "contact"),
+                                 facts["dimension"] == 3 ? "in space" : "in the plane", fmt::join(kinds, ", "));
+  if (found.contains("mu")) text += ", mu " + BetweenText(found["mu"]);
+  text += fmt::format(". A has {}", NumberOf(facts["rows"], "row"));
+  if (found.contains("rank")) text += ", rank " + found["rank"].dump();
+  if (found.contains("diagonal")) text += fmt::format(", A_ii {}", BetweenText(found["diagonal"]));
+  return text + fmt::format(". The problem {}.", AssumptionsMetText(facts));
+}
+
+std::string ExistenceText(const Json& found) {
+  const Json& facts = found["survey"];
+  const bool in_range = facts["range"]["in-range"] == true, slides = found["kinds"].contains("sliding");
+  const std::string existence = CertificateFor(found, "existence");
+  if (existence == "no-solution") return "No: that no forces meet all conditions is proved.";
+  std::string text;
+  if (CertificateFor(found, "exists") == "exists" || (facts["meets assumptions"] == true && !slides))
+    text = fmt::format(
+        "Yes, by a theorem (certify/existence.md), for {}: A is symmetric and semidefinite, no contact slides, "
+        "and {}. ",
+        in_range ? "every mu" : "these mu",
+        in_range ? "b is in the range of A" : "b.v >= 0 for all forces v that friction allows with A v = 0");
+  const std::string yes = text.empty() ? "Yes. " : text;
+  if (existence == "solution-exists") return yes + "Forces that meet every condition are found, exactly.";
+  if (existence == "coulomb-solution")
+    return yes + "Forces are found that obey Coulomb's law within a proved bound on the angle of slip.";
+  return text.empty() ? "Nothing that was run proves that there is one, or none."
+                      : text + "No exact forces are found here.";
+}
+
+std::string PoliciesText(const Json& policies) {
+  std::vector<std::string> parts;
+  for (const auto& [outcome, count] : policies["outcomes"].items())
+    parts.push_back(fmt::format("{} {}", outcome, count.dump()));
+  const std::string text = fmt::format("The published algorithm under {}, readings of its text: {}.",
+                                       policies["all"] == 1 ? "1 policy" : policies["all"].dump() + " policies",
+                                       fmt::join(parts, ", "));
+  const Json& loop = policies["loops"];
+  if (loop.is_null()) return text;
+  const char* unit = loop["outcome"] == "cycle" ? "drives" : "steps";
+  return text + fmt::format(" Under {} the state after {} {} recurs every {} {}, for ever{}.",
+                            loop["policy"].get<std::string>(), loop["start"].dump(), unit,
+                            loop["period"].dump(), unit,
+                            loop["proved"] == true ? "" : " as far as rounded numbers tell");
+}
+
+std::string SurenessText(const Json& found) {
+  std::string text;
+  if (found.contains("solutions")) {
+    const Json& solutions = found["solutions"];
+    std::vector<std::string> words;
+    for (const Json& word : solutions["modes"])
+      words.push_back(fmt::format("{}", fmt::join(word.get<std::vector<std::string>>(), " ")));
+    text += fmt::format("{} of the contact modes {}{}", words.size(),
+                        words.size() == 1 ? "has a solution" : "have solutions",
+                        solutions["complete"] == true ? "" : ", as far as they were looked at");
+    text += words.empty() ? ". " : fmt::format(", the first {}. ", words[0]);
+    if (solutions["complete"] == true && !words.empty())
+      text += solutions["unique"] == true ? "Its forces are the only ones. "
+                                          : "There are other forces that meet all conditions. ";
+  }
+  const std::string safe = CertificateFor(found, "safe");
+  if (safe == "safe")
+    text +=
+        "A is safe: complete driving never turns back, and, ties apart, the published algorithm under "
+        "apex=suspended ends. ";
+  if (safe == "unsafe")
+    text += "A is not safe: complete driving may turn back, where the published algorithm gives up. ";
+  if (found.contains("safe_below"))
+    text += found["safe_below"].is_null() ? "With one mu for all contacts it is safe, whatever mu is. "
+            : found["safe_below"] == "0"  ? "With one mu for all contacts it is safe for none. "
+                                          : fmt::format("With one mu for all contacts it is safe below {}. ",
+                                                        found["safe_below"].get<std::string>());
+  if (found.contains("radius"))
+    text += found["radius"].is_null()
+                ? "No distance is proved within which the loop stays one. "
+                : fmt::format("The loop stays one while A, b and mu move by up to {} of their size, proved. ",
+                              found["radius"].get<std::string>());
+  return text.empty() ? "Not looked at: in space, or with so many contacts." : text;
+}
+
+std::string MethodsText(const Json& found) {
+  const Json& facts = found["survey"];
+  std::string text = "\nWhat the methods do\n" + Paragraph(fmt::format("Of the methods: {}.", RunsText(facts)));
+  if (found.contains("policies")) text += Paragraph(PoliciesText(found["policies"]));
+  if (facts.contains("symmetrized"))
+    text += Paragraph(fmt::format("With (A + A')/2 in place of A it {}. Of the methods: {}.",
+                                  AssumptionsMetText(facts["symmetrized"]), RunsText(facts["symmetrized"])));
+  TextTable table({"method", "end"}, 2);
+  for (const Json& run : found.value("methods", Json::array())) {
+    std::string end = run["outcome"];
+    if (run.contains("period"))
+      end += fmt::format(": from {} on, every {}", run["start"].dump(), run["period"].dump());
+    if (run.contains("reason")) end += ": " + run["reason"].get<std::string>();
+    table.AddRow(
+        {fmt::format("  {}, {}", run["method"].get<std::string>(), run["arithmetic"].get<std::string>()), end});
+  }
+  return text + table.Done();
+}
+
+// A command stands on a line of its own, however long: it is to be copied.
+std::string LineOfCommand(const Json& command) { return "    " + command.get<std::string>() + "\n"; }
+
+std::string CommandsText(const Json& found) {
+  std::string text = found.contains("claims") ? "\nWhat can be certified\n" : "";
+  for (const Json& claim : found.value("claims", Json::array())) {
+    if (claim["certificate"].is_null()) continue;
+    const std::string name = claim["certificate"], meaning = claim["meaning"];
+    const bool any = claim["claim"] == "existence";  // whichever certificate of solutions there is
+    if (!any && name == CertificateFor(found, "existence")) continue;
+    text += Paragraph(any                      ? name + ": whether there is a solution"
+                      : name == claim["claim"] ? fmt::format("{}: {}", name, meaning)
+                                               : fmt::format("{}, since it is not so that {}", name, meaning)) +
+            LineOfCommand(claim["command"]);
+  }
+  text += "\nWhat to type next\n";
+  for (const Json& each : found["next"])
+    text += Paragraph(each["shows"].get<std::string>()) + LineOfCommand(each["command"]);
+  return text;
+}
+
+}  // namespace
+
+std::string ExplainedText(const Json& found) {
+  return Folded(found["file"].get<std::string>() + "\n") + Paragraph(ProblemText(found)) +
+         "\nIs there a solution?\n" + Paragraph(ExistenceText(found)) + MethodsText(found) +
+         "\nHow sure are the forces?\n" + Paragraph(SurenessText(found)) + CommandsText(found);
+}
+
+}  // namespace stiction

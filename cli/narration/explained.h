@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// One problem in words: what it is, whether it has a solution, what the methods do on it, how sure its forces
+// are, what can be certified, and what to type next.
+
+#ifndef STICTION_CLI_NARRATION_EXPLAINED_H_
+#define STICTION_CLI_NARRATION_EXPLAINED_H_
+
+#include <string>
+#include <variant>
+
+#include "corpus/json_text.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/record/sparse_problem.h"
+#include "solver/problem/options.h"
+
+namespace stiction {
+
+struct ExplainOptions {
+  std::string file;  // as commands name it
+  Limits limits = {};
+};
+
+// What `explain --json` prints.
+Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const ExplainOptions& o);
+
+// The same in lines that fit the terminal, but for commands.
+std::string ExplainedText(const Json& found);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATION_EXPLAINED_H_

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/narration/page_of_run.h"
+
+#include <vector>
+
+#include "cli/narration/followed.h"
+#include "cli/narration/over_intervals.h"
+
+namespace stiction {
+
+Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
+               const Solution& solution, const std::optional<InexactAnswer>& over_intervals) {
+  const auto path = [](const Wanted& o) { return PathOptions{o.method, o.policy, o.options.limits}; };
+  std::vector<FollowedRun> runs = {Followed(path(wanted), file, solution)};
+  if (over_intervals) TellOverIntervals(*over_intervals, runs[0]);
+  Wanted beside = wanted;
+  beside.method = "complete";
+  beside.arithmetic = "";
+  beside.policy = Wanted().policy;
+  if (wanted.method != beside.method) {
+    const SolveRequest request = PathRequestOf(beside, file.problem, source);
+    runs.push_back(Followed(path(beside), file, SolveAsked(file.problem, request, source)));
+  }
+  return ReplayPageData(file, picture, runs);
+}
+
+}  // namespace stiction

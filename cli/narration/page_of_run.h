@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The data of the page of a run, for the program and for Python.
+
+#ifndef STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
+#define STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
+
+#include <optional>
+#include <string>
+
+#include "certify/request/request.h"
+#include "corpus/json_text.h"
+#include "corpus/record/problem_file.h"
+
+namespace stiction {
+
+// ReplayPageData of the run itself, with what intervals say of it, and beside it of complete driving.
+// `solution` is that of PathRequestOf(wanted), `picture` as PictureBeside (reports/pictures/problem_picture.h)
+// has it.
+Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
+               const Solution& solution, const std::optional<InexactAnswer>& over_intervals);
+
+}  // namespace stiction
+
+#endif  // STICTION_CLI_NARRATION_PAGE_OF_RUN_H_

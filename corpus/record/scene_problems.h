@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contact problems of a scene as problem files, for `assemble` and for Python.
+
+#ifndef STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_
+#define STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "corpus/record/problem_file.h"
+#include "corpus/record/scene_file.h"
+#include "scene/assemble.h"
+
+namespace stiction {
+
+struct SceneProblemOptions {
+  std::string level = "forces";  // or "impulses"
+  bool factors = false;          // in place of A
+  bool full = false;             // one problem, with redundant rows; it keeps its scene
+
+  AssembleOptions<Rational> assembly() const {
+    AssembleOptions<Rational> options;
+    options.level = level == "impulses" ? Level::kImpulses : Level::kForces;
+    options.minimal = !full;
+    return options;
+  }
+};
+
+// One for each island of the model that was assembled with these options, in its order. Those in factors have
+// no A.
+template <class Kind>
+std::vector<ProblemFile> ProblemsOf(const SceneFileIn<Kind>& file, const ModelIn<Kind, Rational>& model,
+                                    const SceneProblemOptions& o) {
+  std::vector<ProblemFile> problems;
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    ProblemFile& problem = problems.emplace_back();
+    if (o.factors) {
+      problem.factors = model.InFactors(i);
+      problem.problem = {problem.factors->dimension, problem.factors->contacts, {}, problem.factors->b};
+    } else {
+      problem.problem = model.Problem(i);
+    }
+    problem.name = file.scene.name;
+    if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
+    problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    if (o.full) problem.scene = ToJson(file);
+  }
+  return problems;
+}
+
+}  // namespace stiction
+
+#endif  // STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_
