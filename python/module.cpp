@@ -25,18 +25,25 @@
 #include "certify/request/request.h"
 #include "certify/request/solve_sparse.h"
 #include "cli/narration/all_policies.h"
+#include "cli/narration/explained.h"
 #include "cli/narration/followed.h"
+#include "cli/narration/listed.h"
 #include "cli/narration/over_intervals.h"
+#include "cli/narration/page_of_run.h"
 #include "corpus/atomic_file.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/output_error.h"
+#include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
 #include "corpus/stopwatch.h"
+#include "python/many.h"
 #include "python/search.h"
 #include "python/signals.h"
 #include "python/simulate.h"
+#include "reports/pictures/problem_picture.h"
+#include "reports/viewer.h"
 #include "search/campaign.h"
 #include "search/generators/generators.h"
 
@@ -88,6 +95,10 @@ class PythonProblem {
     return {dense_->name, problem.dimension, problem.contacts, problem.b, dense_->factors};
   }
   std::string Text() const { return sparse_ ? Print(*sparse_) : Print(*dense_); }
+  std::variant<ProblemFile, SparseProblem> AsRead() const {
+    if (dense_) return *dense_;
+    return *sparse_;
+  }
 
  private:
   void TakeDense(ProblemFile file) {
@@ -365,6 +376,50 @@ py::object ReplayProblem(PythonProblem& problem, const std::string& policy, cons
   }));
 }
 
+// The page that `replay --html` writes. `command` makes it again.
+std::string PageOfReplay(PythonProblem& problem, const std::string& policy, const std::string& method,
+                         const std::string& arithmetic, int sides, const Numbers& numbers,
+                         const std::string& command) {
+  const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
+  const ProblemFile& file = problem.file();
+  SolveRequest request = PathRequestOf(wanted, file.problem, kSource);
+  return Interruptible(0, [&](const std::atomic<bool>* stop) {
+    request.options.limits.stop = stop;
+    const Solution solution = SolveAsked(file.problem, request, kSource);
+    const auto proved = OverIntervals(file.problem, request, solution.outcome());
+    const Json data = PageOfRun(wanted, file, kSource, PictureBeside(file, kSource), solution, proved);
+    return ViewerPage(file.name + ", step by step", data,
+                      {command, STICTION_VERSION, ProblemDigest(file.problem)});
+  });
+}
+
+// Each of many, solved or, where `followed`, replayed as ReplayProblem does; without its path.
+py::dict SolveManyAsked(PythonProblem& like, const Doubles& A, const Doubles& b, const Doubles& mu,
+                        const std::string& method, const std::string& arithmetic, const std::string& policy,
+                        const std::string& law, int sides, const Numbers& numbers, bool followed, int threads) {
+  Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
+  wanted.law = law;
+  SolveRequest request =
+      followed ? PathRequestOf(wanted, like.problem(), kSource) : RequestOf(wanted, like.problem(), kSource);
+  request.trace = KeepTrace::kNo;
+  return SolveMany(like.problem(), A, b, mu, request, threads);
+}
+
+// What `explain` says of it, as data and as text of so many columns.
+py::tuple ExplainProblem(PythonProblem& problem, const std::string& file, int columns, const Numbers& numbers) {
+  ExplainOptions options{.file = file};
+  SetNumbers(options.limits, numbers);
+  const auto read = problem.AsRead();
+  const auto [found, text] = Interruptible(0, [&](const std::atomic<bool>* stop) {
+    options.limits.stop = stop;
+    const FixedTextWidth width(static_cast<std::size_t>(columns));
+    Json json = Explained(read, options);
+    std::string told = ExplainedText(json);
+    return std::make_pair(std::move(json), std::move(told));
+  });
+  return py::make_tuple(ToPython(found), text);
+}
+
 // By the name of a policy how the published algorithm ends.
 py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, int sides,
                          const Numbers& numbers) {
@@ -500,6 +555,11 @@ PYBIND11_MODULE(_stiction, module) {
     return std::make_pair(interval.low, interval.high);
   });
   module.def("replay", &ReplayProblem);
+  module.def("replay_page", &PageOfReplay);
+  module.def("solve_many", &SolveManyAsked);
+  module.def("explain", &ExplainProblem);
+  module.def("methods", [] { return ToPython(MethodsToJson()); });
+  module.def("policies", [] { return ToPython(PoliciesToJson()); });
   module.def("ends", &EndsOfProblem);
   module.def("certify", &CertifyProblem);
   module.def("check", &CheckForProblem);

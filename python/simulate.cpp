@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "corpus/record/scene_file.h"
+#include "corpus/record/scene_problems.h"
 #include "python/signals.h"
 #include "reports/pictures/rounded_scene.h"
 #include "scene/tables.h"
@@ -163,8 +164,27 @@ py::dict SimulateText(const std::string& text, const std::string& source, std::o
                     ParseAnyScene(text, source));
 }
 
+// The texts of the problem files that `stiction assemble` writes of the text of a scene file.
+std::vector<std::string> AssembleText(const std::string& text, const std::string& source,
+                                      const std::string& level, bool factors, bool full) {
+  if (level != "forces" && level != "impulses")
+    throw InputError(fmt::format("level: found {}, expected forces or impulses", level));
+  const SceneProblemOptions options{level, factors, full};
+  const auto assemble = [&](const auto& file) {
+    const auto model = Assemble(file.scene, FindContacts(file.scene), options.assembly());
+    std::vector<std::string> texts;
+    for (const ProblemFile& problem : ProblemsOf(file, model, options)) texts.push_back(Print(problem));
+    return texts;
+  };
+  const py::gil_scoped_release released;
+  return std::visit(assemble, ParseAnyScene(text, source));
+}
+
 }  // namespace
 
-void AddSimulate(py::module_& module) { module.def("simulate", &SimulateText); }
+void AddSimulate(py::module_& module) {
+  module.def("simulate", &SimulateText);
+  module.def("assemble", &AssembleText);
+}
 
 }  // namespace stiction

@@ -8,7 +8,8 @@
 
 namespace stiction {
 
-// simulate(text, source, seconds, step, rest, full) of a scene file's text.
+// simulate(text, source, seconds, step, rest, full) and assemble(text, source, level, factors, full) of a scene
+// file's text.
 void AddSimulate(pybind11::module_& module);
 
 }  // namespace stiction

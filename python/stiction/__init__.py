@@ -16,14 +16,17 @@ except ImportError as error:
     raise ImportError(f"stiction: found no compiled module in {_Path(__file__).parent}, expected a build: "
                       "'./run python' makes one and starts Python, 'pip install .' installs one") from None
 from ._campaigns import Best, Finding, Store, draw, interval, search
+from ._explained import Explanation, explain, methods, policies
+from ._many import Answers, replay_many, solve_many
 from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve, solve_all
 from ._problem import Problem, load
-from ._simulation import Simulation, simulate
+from ._simulation import Simulation, assemble, simulate
 from ._stiction import __version__
 
-__all__ = ["Answer", "Best", "Certificate", "Finding", "Pivot", "Problem", "Replay", "Simulation", "Store", "certify",
-           "check", "draw", "ends", "interval", "load", "replay", "search", "simulate", "solve",
-           "solve_all"]  # and __version__
+__all__ = ["Answer", "Answers", "Best", "Certificate", "Explanation", "Finding", "Pivot", "Problem", "Replay",
+           "Simulation", "Store", "assemble", "certify", "check", "draw", "ends", "explain", "interval", "load",
+           "methods", "policies", "replay", "replay_many", "search", "simulate", "solve", "solve_all",
+           "solve_many"]  # and __version__; plots are in stiction.plots
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
-from ._given import Path, exact_text, integer, listed, path_text, real, shortened
+from ._given import Path, exact_text, integer, listed, path_text, real, required, shortened
 from ._methods import Certificate
 from ._problem import Problem, parsed, wrapped
 
@@ -137,7 +137,7 @@ class Store:
         """The tables of `stiction report` by name, as statistics, verdicts or strata; of each its columns by name.
 
         Numbers are int64, masked where a cell is empty; all else is text. Left out are the columns of `findings`
-        that name files of a report's folder. `pandas.DataFrame(table)` takes one as it is.
+        that name files of a report's folder. `frame` has one for pandas.
         """
         if not self._tables:
             for name, (texts, written) in self._store.tables().items():
@@ -145,6 +145,17 @@ class Store:
                 self._tables[name] = {column: _column([row[i] for row in table["rows"]], column in texts)
                                       for i, column in enumerate(table["columns"]) if not column.endswith("_file")}
         return dict(self._tables)
+
+    def frame(self, name: str = "statistics") -> Any:
+        """A table by name as a pandas.DataFrame; an empty cell is NaN, as of any column of numbers that has one."""
+        tables = self.tables
+        if name not in tables:
+            raise ValueError(f"frame: found {name}, expected one of {', '.join(tables)}")
+        columns: dict[str, Any] = {}
+        for of, column in tables[name].items():
+            masked: Any = column
+            columns[of] = masked.astype(float).filled(np.nan) if isinstance(column, np.ma.MaskedArray) else column
+        return required("pandas").DataFrame(columns)
 
     def statistics(self) -> Table:
         """A row per generator, contacts, policy, method and arithmetic: problems, outcomes, all counters."""

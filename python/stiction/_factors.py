@@ -2,6 +2,7 @@
 """Problems in factors: J, M, w, c as given, made the text of a problem file, and given back."""
 from __future__ import annotations
 
+import importlib
 import json
 from typing import Any, NamedTuple, Sequence
 
@@ -31,7 +32,7 @@ class Entries(NamedTuple):
 def sparse(row: Any, col: Any, data: Any, shape: tuple[int, int]) -> Any:
     """A scipy.sparse.csr_matrix, or `Entries` where scipy is not installed."""
     try:
-        from scipy.sparse import csr_matrix
+        csr_matrix = importlib.import_module("scipy.sparse").csr_matrix
     except ImportError:
         return Entries(np.asarray(row, dtype=int), np.asarray(col, dtype=int), np.asarray(data, dtype=float), shape)
     return csr_matrix((data, (row, col)), shape=shape)

@@ -2,6 +2,7 @@
 """What is given to the package, checked: each error names what was found and what was expected."""
 from __future__ import annotations
 
+import importlib
 import numbers
 import operator
 import os
@@ -44,7 +45,7 @@ def listed(value: Any, name: str) -> list[Any]:
 
 def unmasked(value: Any, name: str) -> Any:
     """The value itself. ValueError for an array of which something is masked."""
-    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():
+    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():  # type: ignore[no-untyped-call]
         raise ValueError(f"{name}: found an array with masked entries, expected numbers everywhere")
     return value
 
@@ -88,3 +89,16 @@ def path_text(path: Any) -> str:
         return os.fsdecode(path)
     except TypeError:
         raise TypeError(f"path: found {path!r}, expected text or a path") from None
+
+
+_PACKAGES = {"matplotlib": "python3-matplotlib", "pandas": "python3-pandas"}  # of Debian
+
+
+def required(module: str) -> Any:
+    """A module of a package that stiction does without until it is asked for. ImportError that says how to have it."""
+    name = module.split(".")[0]
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"stiction: found no {name}, expected it: install Debian's package {_PACKAGES[name]}, or "
+                          f"pip install {name}") from error

@@ -2,8 +2,10 @@
 """What is done with a problem: solved, replayed, certified."""
 from __future__ import annotations
 
+import html
 import json
 import math
+import shlex
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -125,13 +127,39 @@ class Pivot(_Forces):
 
 @dataclass(frozen=True, repr=False)
 class Replay:
-    """A run: of a loop, the state after `start` drives recurs `period` drives later."""
+    """A run of `problem`: of a loop, the state after `start` drives recurs `period` drives later.
+
+    A notebook shows it as a page in which to step through it, beside complete driving.
+    """
 
     outcome: str
     start: int
     period: int
     pivots: list[Pivot]
     json: dict[str, Any]
+    problem: Problem
+    asked: dict[str, Any]  # policy, method, arithmetic, sides, budgets
+
+    @property
+    def before(self) -> Vector:
+        """Forces in N by row before the first step: zero but for bilateral contacts."""
+        return _array([_nearest(x) for x in self.json["initial"]["f"]])
+
+    def page(self) -> str:
+        """The page that `stiction replay --html` writes: HTML that needs nothing else, to step through the run."""
+        words = ["stiction", "replay", f"{self.problem.name}.json"]
+        usual = {"policy": "paper", "method": "baraff", "arithmetic": "", "sides": 8}
+        asked = self.asked
+        for name, value in [*((name, asked[name]) for name in usual if asked[name] != usual[name]),
+                            *asked["numbers"].items()]:
+            words += [f"--{name.replace('_', '-')}", str(value)]
+        return _stiction.replay_page(compiled(self.problem, "page"), asked["policy"], asked["method"],
+                                     asked["arithmetic"], asked["sides"], asked["numbers"],
+                                     f"{shlex.join(words)} --html OUT")
+
+    def _repr_html_(self) -> str:  # a notebook shows the player
+        return (f'<iframe srcdoc="{html.escape(self.page())}" style="width: 100%; height: 45em; border: 0" '
+                f'title="{html.escape(self.problem.name)}, step by step"></iframe>')
 
     def __repr__(self) -> str:
         loop = f", start {self.start}, period {self.period}" if self.period else ""
@@ -156,7 +184,7 @@ class Certificate:
 
 # ---- Solving, replaying, certifying ----
 
-def _chosen(**values: float | None) -> dict[str, float]:
+def chosen(**values: float | None) -> dict[str, float]:
     """Those of budgets and tolerances that are given: budgets are whole numbers."""
     return {name: integer(name, value) if name.startswith("max_") else real(name, value)
             for name, value in values.items() if value is not None}
@@ -175,7 +203,7 @@ def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: 
     require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
     said = _stiction.solve(compiled(problem, "solve"), method, arithmetic, policy, law, integer("sides", sides),
                            real("residual", residual), real("seconds", seconds),
-                           _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits,
+                           chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits,
                                    acceleration_tolerance=acceleration_tolerance, force_tolerance=force_tolerance,
                                    pivot_tolerance=pivot_tolerance, loop_grain=loop_grain))
     return Answer(said["outcome"], said["method"], said["arithmetic"], said.get("reason", ""),
@@ -193,7 +221,7 @@ def solve_all(problems: Sequence[Problem], method: str = "auto", arithmetic: str
     require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
     outcomes, seconds, counters = _stiction.solve_all(
         [compiled(problem, "solve_all") for problem in problems], method, arithmetic, policy, law,
-        integer("sides", sides), _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+        integer("sides", sides), chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
     return {"outcome": np.array(outcomes, dtype=str), "seconds": np.array(seconds, dtype=np.float64),
             **{name: np.array(column, dtype=np.int64) for name, column in counters.items()}}
 
@@ -203,10 +231,11 @@ def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, a
            max_bits: int | None = None) -> Replay:
     """Runs a path method step by step; by default exactly where it is built so. Ctrl-C as in `solve`."""
     require_text(policy=policy, method=method, arithmetic=arithmetic)
-    said = _stiction.replay(compiled(problem, "replay"), policy, method, arithmetic, integer("sides", sides),
-                            _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+    numbers = chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits)
+    said = _stiction.replay(compiled(problem, "replay"), policy, method, arithmetic, integer("sides", sides), numbers)
     pivots = [Pivot(p.get("drive", 0), _number(p.get("step")), p) for p in said["pivots"]]
-    return Replay(said["outcome"], said["start"], said["period"], pivots, said)
+    return Replay(said["outcome"], said["start"], said["period"], pivots, said, problem,
+                  {"policy": policy, "method": method, "arithmetic": arithmetic, "sides": sides, "numbers": numbers})
 
 
 def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: int | None = None,
@@ -218,7 +247,7 @@ def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: 
     require_text(arithmetic=arithmetic)
     said: dict[str, dict[str, Any]] = _stiction.ends(
         compiled(problem, "ends"), arithmetic, integer("sides", sides),
-        _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+        chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
     return said
 
 
@@ -232,7 +261,7 @@ def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *
     """
     require_text(claim=claim, policy=policy, law=law)
     text = _stiction.certify(compiled(problem, "certify"), claim, policy, law,
-                             _chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
+                             chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
     return None if text is None else Certificate(json.loads(text)["claim"], text)
 
 

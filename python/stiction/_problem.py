@@ -80,6 +80,13 @@ class Problem:
             [exact_text(x, f"Problem: b[{i}]") for i, x in enumerate(b)] if exact_b is None else exact_b,
             contacts, dimension, name)
 
+    @classmethod
+    def from_bodies(cls, J: Any, M: Any, w: Any, mu: Any, c: Any = None, kinds: Sequence[str] | None = None,
+                    dimension: int = 2, name: str = "problem", slips: Sequence[Any] | None = None) -> Problem:
+        """The problem of bodies: J is rows x velocities, M velocities x velocities in kg (or kg m^2), its diagonal or
+        its blocks, w (of each velocity) and c (of each row) such that b = J w + c in m/s^2; all else as of `Problem`."""
+        return cls(J=J, M=M, w=w, c=c, mu=mu, kinds=kinds, dimension=dimension, name=name, slips=slips)
+
     @property
     def name(self) -> str:
         """Of the problem file."""
@@ -92,33 +99,36 @@ class Problem:
 
     @property
     def A(self) -> NDArray[np.float64]:
-        """At its nearest doubles: a view of the problem's memory, which cannot be written to."""
+        """rows x rows in 1/kg at its nearest doubles: a view of the problem's memory, which cannot be written to."""
         return self._problem.A
 
     @property
     def b(self) -> NDArray[np.float64]:
-        """Likewise."""
+        """Likewise, rows in m/s^2."""
         return self._problem.b
 
     @property
     def J(self) -> Any:
-        """Of a problem in factors, at its nearest doubles: a csr_matrix of scipy, without scipy its entries by the same
-        names (row, col, data, shape); otherwise None. Likewise M, w and c, of which the last two are arrays."""
+        """Of a problem in factors, rows x velocities at its nearest doubles: a csr_matrix of scipy, without scipy its
+        entries by the same names (row, col, data, shape); otherwise None."""
         factors = self._problem.factors()
         return None if factors is None else sparse(*factors[0])
 
     @property
     def M(self) -> Any:
+        """Likewise, velocities x velocities in kg or kg m^2."""
         factors = self._problem.factors()
         return None if factors is None else sparse(*factors[1])
 
     @property
     def w(self) -> NDArray[np.float64] | None:
+        """Likewise, an array, of each velocity."""
         factors = self._problem.factors()
         return None if factors is None else factors[2]
 
     @property
     def c(self) -> NDArray[np.float64] | None:
+        """Likewise, in m/s^2, of each row."""
         factors = self._problem.factors()
         return None if factors is None else factors[3]
 
@@ -159,7 +169,9 @@ class Problem:
 
     def __eq__(self, other: object) -> bool:
         """The same numbers and contacts exactly; names may differ."""
-        return self.digest == other.digest if isinstance(other, Problem) else NotImplemented
+        if not isinstance(other, Problem):
+            return NotImplemented
+        return self.digest == other.digest
 
     def __hash__(self) -> int:
         return hash(self.digest)

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _stiction
-from ._given import Path, path_text, real
+from ._given import Path, path_text, real, require_text
+from ._problem import Problem, parsed
 
 Table = dict[str, NDArray[Any]]
 
@@ -88,13 +89,39 @@ def _closed(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _column(numbers: NDArray[Any], words: list[str] | None) -> NDArray[Any]:
-    return numbers if words is None else np.array(words, dtype=str)[numbers]
+    column: NDArray[Any] = numbers if words is None else np.array(words, dtype=str)[numbers]
+    return column
 
 
 def _table(said: dict[str, tuple[NDArray[Any], list[str] | None]], states: int | None = None) -> Table:
     """With `states`, arrays of states x bodies."""
     columns = {name: _column(numbers, words) for name, (numbers, words) in said.items()}
     return {name: _closed(column if states is None else column.reshape(states, -1)) for name, column in columns.items()}
+
+
+def _scene_text(scene: Path | Mapping[str, Any]) -> tuple[str, str]:
+    """The text of a scene, and what it is called where it is refused."""
+    if isinstance(scene, Mapping):
+        return json.dumps(scene), "scene"
+    source = path_text(scene)
+    with open(source, encoding="utf-8") as file:
+        return file.read(), source
+
+
+def assemble(scene: Path | Mapping[str, Any], level: str = "forces", *, factors: bool = False,
+             full: bool = False) -> list[Problem]:
+    """The contact problems of a scene at its first instant, one for each group of bodies that contacts join, over
+    rationals: those that `stiction assemble` writes.
+
+    `scene` is a stiction-scene file, or a dictionary like one. `level`: 'forces', or 'impulses' of a collision. With
+    `factors` problems hold J, M and w in place of A; `full` makes one problem of all, with redundant rows.
+    """
+    text, source = _scene_text(scene)
+    require_text(level=level)
+    for name, value in (("factors", factors), ("full", full)):
+        if not isinstance(value, bool):
+            raise TypeError(f"{name}: found {value!r}, expected True or False")
+    return [parsed(problem, source) for problem in _stiction.assemble(text, source, level, factors, full)]
 
 
 def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step: float | None = None, *,
@@ -105,12 +132,7 @@ def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step
     are given; `rest` and `full` are what `stiction simulate --help` says. A step that has no answer ends the run:
     `reason`. Ctrl-C is a KeyboardInterrupt.
     """
-    if isinstance(scene, Mapping):
-        text, source = json.dumps(scene), "scene"
-    else:
-        source = path_text(scene)
-        with open(source, encoding="utf-8") as file:
-            text = file.read()
+    text, source = _scene_text(scene)
     if not isinstance(full, bool):
         raise TypeError(f"full: found {full!r}, expected True or False")
     said = _stiction.simulate(text, source, None if seconds is None else real("seconds", seconds),

@@ -68,6 +68,27 @@ class Given(unittest.TestCase):
             self.assertEqual((problem.digest, problem.exact_A), (same.digest, A))
             self.assertEqual(stiction.solve(problem).exact_f, stiction.solve(same).exact_f)
 
+    @unittest.skipUnless(sparse, "python3-scipy is not installed")
+    def test_sparse_matrices_of_bodies(self):
+        """Of each format of scipy, with entries listed twice, integers, and index arrays of 64 bits."""
+        same = stiction.Problem(J=J, M=M, w=W, mu=[0.5, 0.25])
+        twice = sparse.coo_matrix((np.r_[J[J != 0] / 2, J[J != 0] / 2], np.tile(np.nonzero(J), 2)), J.shape)
+        wide = sparse.csr_matrix(J)
+        wide.indices, wide.indptr = wide.indices.astype(np.int64), wide.indptr.astype(np.int64)
+        for J_ in (twice, wide, sparse.csr_array(J), sparse.dok_matrix(J), sparse.bsr_matrix(J), sparse.dia_matrix(J),
+                   sparse.csc_matrix(J.astype(int))):
+            before = J_.copy()
+            for M_ in (sparse.csc_matrix(M), sparse.block_diag([2, 2, M[2:, 2:]]), sparse.csr_array(M)):
+                problem = stiction.Problem.from_bodies(J_, M_, W, mu=[0.5, 0.25])
+                self.assertEqual(problem.digest, same.digest, (type(J_), type(M_)))
+                self.assertIsInstance(problem.J, sparse.csr_matrix)
+                self.assertEqual((problem.J != sparse.csr_matrix(J)).nnz + (problem.M != sparse.csr_matrix(M)).nnz, 0)
+            self.assertEqual(before.nnz, J_.nnz)  # what was given is as it was
+        ones = stiction.Problem.from_bodies(sparse.csr_matrix(J), [1, 1, 1, 1], W, mu=1, c=C)
+        self.assertEqual(ones, stiction.Problem.from_bodies(J, sparse.identity(4), W, 1, C))
+        with self.assertRaisesRegex(ValueError, r"J\[0, 1\]: found nan"):
+            stiction.Problem.from_bodies(sparse.csr_matrix(np.where(J == 1, np.nan, J)), M, W, 1)
+
     def test_a_diagonal_of_masses_and_exact_numbers(self):
         problem = stiction.Problem(J=[["1/3", 0], [0, 1]], M=["2", Fraction(1, 3)], w=["-1/7", 0], mu=1)
         self.assertEqual(problem.exact_A, [[Fraction(1, 18), 0], [0, 3]])
