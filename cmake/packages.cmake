@@ -53,7 +53,7 @@ set(package_of_library libstiction-dev)
 if(STICTION_PYTHON)
   list(APPEND components python)
   set(package_of_python python3-stiction)
-  install(FILES python/headline.ipynb DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-stiction/examples
+  install(FILES python/engine_step.ipynb python/headline.ipynb python/study.ipynb DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-stiction/examples
           COMPONENT python)
 endif()
 foreach(component ${components})

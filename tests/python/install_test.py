@@ -27,7 +27,8 @@ class Installed(unittest.TestCase):
             self.assertEqual({file.name for file in package.iterdir() if file.suffix != ".so"},
                              {file.name for file in (SOURCES / "python/stiction").iterdir() if file.is_file()})
             self.assertTrue((prefix / "share/doc/python3-stiction/copyright").exists())
-            self.assertTrue((prefix / "share/doc/python3-stiction/examples/headline.ipynb").exists())
+            for notebook in (SOURCES / "python").glob("*.ipynb"):
+                self.assertTrue((prefix / "share/doc/python3-stiction/examples" / notebook.name).exists())
             (prefix / "bin").mkdir()
             shutil.copy(BUILD / "stiction-ipopt", prefix / "bin")
             done = subprocess.run(
