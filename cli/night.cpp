@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <thread>
@@ -29,6 +30,20 @@ namespace {
 constexpr double kFirstLine = 10, kLastLine = 600;  // seconds between lines, at first and at last
 constexpr std::size_t kNamed = 5;                   // signatures that a line names
 constexpr double kPatience = 60;                    // seconds for a command
+
+constexpr std::size_t kNewsAtOnce = 20;  // lines of new groups, after which the others are counted
+
+// "cycle-2c-4d-8s-cc8da49e0296c085: integers, 2 contacts, in the corpus: NAME". Loops and what is grave in
+// colour.
+std::string LineOf(const Finding& finding) {
+  const bool loop = finding.exact_outcome == "cycle" || finding.exact_outcome == "stall";
+  const std::string known(KnownAs(finding.signature));
+  const std::string name = IsGrave(finding.kind) ? Coloured(finding.signature + " GRAVE", Colour::kGrave)
+                           : loop                ? Coloured(finding.signature, Colour::kLoop)
+                                                 : finding.signature;
+  return fmt::format("{}: {}, {} contact{}{}", name, finding.generator, finding.contacts,
+                     finding.contacts == 1 ? "" : "s", known.empty() ? "" : ", in the corpus: " + known);
+}
 
 std::string NewsText(const std::vector<Finding>& news) {
   if (news.empty()) return "nothing new";
@@ -54,6 +69,12 @@ std::string TimeOfDay() {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(now));
 }
 
+std::string Coloured(const std::string& text, Colour colour) {
+  const char* const refused = std::getenv("NO_COLOR");
+  if (isatty(STDERR_FILENO) == 0 || (refused != nullptr && *refused != '\0')) return text;
+  return fmt::format("\033[{}m{}\033[0m", colour == Colour::kLoop ? 32 : 31, text);
+}
+
 ShowFindings Reading(ProgressBar& bar, const std::string& file) {
   const std::string which = file.empty() ? "" : file + ": ";
   return [&bar, which](std::int64_t done, std::int64_t of) {
@@ -66,7 +87,10 @@ ShowFindings Reading(ProgressBar& bar, const std::string& file) {
 
 void NightLog::Show(const SearchProgress& progress) {
   news_.insert(news_.end(), progress.news.begin(), progress.news.end());
-  if (bar_.IsShown()) return bar_.Show(Fraction(progress), Line(progress));
+  if (bar_.IsShown()) {
+    PrintNews();
+    return bar_.Show(Fraction(progress), Line(progress));
+  }
   const double passed = progress.seconds - last_;
   if (passed >= std::clamp(progress.seconds / 20, kFirstLine, kLastLine) ||
       (!news_.empty() && passed >= kFirstLine))
@@ -76,7 +100,20 @@ void NightLog::Show(const SearchProgress& progress) {
 void NightLog::Finish(const SearchProgress& progress) {
   news_.insert(news_.end(), progress.news.begin(), progress.news.end());
   bar_.Clear();
+  if (bar_.IsShown()) PrintNews();
   if (!bar_.IsShown() && !news_.empty()) Print(progress);
+}
+
+// On a terminal; the bar is drawn again below.
+void NightLog::PrintNews() {
+  if (news_.empty()) return;
+  bar_.Clear();
+  const std::string time = TimeOfDay().substr(11);
+  for (std::size_t i = 0; i < std::min(news_.size(), kNewsAtOnce); ++i)
+    fmt::print(stderr, "{} {}\n", time, LineOf(news_[i]));
+  if (news_.size() > kNewsAtOnce)
+    fmt::print(stderr, "{} and {} more new groups\n", time, news_.size() - kNewsAtOnce);
+  news_.clear();
 }
 
 void NightLog::Print(const SearchProgress& progress) {

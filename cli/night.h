@@ -18,11 +18,16 @@ namespace stiction {
 // "2026-01-31 23:59:59", local.
 std::string TimeOfDay();
 
+// Text for standard error: in colour where that is a terminal and NO_COLOR is not set (no-color.org).
+enum class Colour { kLoop, kGrave };
+std::string Coloured(const std::string& text, Colour colour);
+
 // How far a store is read, which is named if it is one of several.
 ShowFindings Reading(ProgressBar& bar, const std::string& file = {});
 
-// Progress on standard error. A log has a line every ten seconds at first, later more seldom, and one when
-// there is a new group; each says what is new since the line before it, and which of that the corpus has too.
+// Progress on standard error. A terminal has a line for each new group when it is found, and below them a bar.
+// A log has a line every ten seconds at first, later more seldom, and one when there is a new group; each says
+// what is new since the line before it, and which of that the corpus has too.
 class NightLog {
  public:
   explicit NightLog(std::optional<double> minutes) : minutes_(minutes) {}
@@ -35,6 +40,7 @@ class NightLog {
   double Fraction(const SearchProgress& progress) const;
   std::string Line(const SearchProgress& progress) const;
   void Print(const SearchProgress& progress);
+  void PrintNews();
 
   std::optional<double> minutes_;
   ProgressBar bar_;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -286,20 +288,42 @@ std::string Changes(const Look& before, const Look& now) {
                      Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
 }
 
-// Lines on standard error as long as a process works on the store.
+// On a terminal: all of it anew, with what is new above the summary, cut to the height.
+void Redraw(const std::string& news, const std::string& summary) {
+  winsize size{};
+  const std::size_t rows = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 2 ? size.ws_row : 24;
+  const std::string text = news + "\n\n" + summary;
+  std::size_t end = 0, lines = 0;
+  while (end < text.size() && lines + 1 < rows) {
+    end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    ++lines;
+  }
+  fmt::print(stderr, "\033[H\033[2J{}", std::string_view(text).substr(0, end));
+  std::fflush(stderr);
+}
+
+// As long as a process works on the store: on a terminal a summary that is drawn anew, otherwise lines of what
+// is new, on standard error.
 void Watch(const std::string& file) {
   const std::atomic<bool>& interrupted = Interruption();
+  const bool terminal = isatty(STDERR_FILENO) != 0;
   std::optional<Look> before;
   while (!interrupted && StoreLock::IsHeld(file)) {
     if (std::filesystem::exists(file)) {  // a search makes it in its first moment
-      const Look now = LookAt(OpenSound(file));
-      if (!before || now.problems != before->problems)
-        fmt::print(std::cerr, "{} {}\n", TimeOfDay(), Changes(before.value_or(now), now));
+      const Store store = OpenSound(file);
+      const Look now = LookAt(store);
+      const std::string line = fmt::format("{} {}", TimeOfDay(), Changes(before.value_or(now), now));
+      if (terminal) {
+        Redraw(Folded(line, TextWidth(STDERR_FILENO)), SummaryOf(store, file));
+      } else if (!before || now.problems != before->problems) {
+        fmt::print(std::cerr, "{}\n", line);
+      }
       before = now;
     }
     for (double waited = 0; waited < kLook && !interrupted && StoreLock::IsHeld(file); waited += 0.1)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
+  if (terminal && before) fmt::print(stderr, "\033[H\033[2J");
   if (!interrupted) fmt::print(std::cerr, "{} no process works on {}\n", TimeOfDay(), file);
 }
 
@@ -590,7 +614,8 @@ const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
 const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
-  verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it");
+  verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it")
+      .Details("A terminal is drawn anew, with the summary; a log has a line where something is new");
   verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
 });
 

@@ -14,6 +14,7 @@ import struct
 import subprocess
 import tempfile
 import termios
+import time
 import unittest
 from pathlib import Path
 
@@ -116,6 +117,45 @@ class Terminal(cli.TestCase):
             for update in updates:
                 self.assertLess(len(update), columns)  # behind the last column some terminals begin a line
             self.assertTrue(any("problems" in update for update in updates), updates)
+
+    def test_what_is_found_has_a_line_when_it_is_found(self):
+        """Above the bar; in colour, unless NO_COLOR is set."""
+        words = ("search", "--generator", "bodies", "-c", 2, "--problems", 40000, "--seed", 1, "--finishing", 0,
+                 "--store")
+        code, text = on_a_terminal(80, *words, self.made / "colour.store")
+        found = re.findall(r"\r\x1b\[K\d\d:\d\d:\d\d ([^\r\n]*)", text.replace("\r\r", "\r"))
+        found += re.findall(r"\n\d\d:\d\d:\d\d ([^\r\n]*)", text)
+        groups = cli.run("status", self.made / "colour.store", "--json").json()
+        signatures = [row[0] for row in cli.content(self.made / "colour.store")["findings"]]
+        self.assertEqual(code, 0, groups)
+        self.assertGreater(len(signatures), 1)
+        names = [re.sub(r"\x1b\[\d*m", "", line).split(": ")[0] for line in found]
+        self.assertEqual(sorted(names), sorted(signatures))
+        self.assertTrue(any(line.startswith("\x1b[32mcycle-") for line in found), found)
+        self.assertTrue(all("bodies, 2 contacts" in line for line in found), found)
+        os.environ["NO_COLOR"] = "1"
+        self.addCleanup(os.environ.pop, "NO_COLOR")
+        text = on_a_terminal(80, *words, self.made / "plain.store")[1]
+        self.assertNotIn("\x1b[3", text)
+        self.assertIn(signatures[0], text)
+
+    def test_a_watched_store_is_drawn_anew(self):
+        store = self.made / "watched.store"
+        search = subprocess.Popen([cli.program, "search", "-c", "2", "--minutes", "0.08", "--store", store],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until = time.monotonic() + 60
+        while not store.exists() and time.monotonic() < until:
+            time.sleep(0.05)
+        code, text = on_a_terminal(80, "status", store, "--watch")
+        search.wait()
+        self.assertEqual(code, 0, text)
+        screens = text.split("\x1b[H\x1b[2J")[1:]
+        self.assertGreater(len(screens), 1)
+        for screen in screens[:-1]:
+            self.assertLess(screen.count("\n"), 24)
+            self.assertRegex(screen.splitlines()[0], r"runs, .* more; .* groups, .* new")
+            self.assertIn("problems in ", screen)
+        self.assertIn("no process works on", screens[-1])
 
     def test_json_is_not_broken(self):
         for columns in (40, 200):
