@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/shared.h"
 #include "cli/narration/surveyed.h"
+#include "cli/shared.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json.h"
 

@@ -145,6 +145,14 @@ class Studies(unittest.TestCase):
         for row in rows:
             self.assertGreaterEqual(whole(row["certified"]), 36, row)
 
+    def test_many(self):
+        rows, = tables("many", "--contacts", 3, "--problems", 400, "--repeat", 2)
+        self.assertEqual(len(rows), 5)
+        for row in rows:
+            library, python = whole(row["library, problems a core second"]), whole(row["Python"])
+            self.assertGreater(library, python)
+            self.assertGreater(float(row["ratio: median (90 %)"].split()[0]), 0.3)
+
     def test_linear_algebra(self):
         systems, runs = tables("linear_algebra", "--contacts", 2, "--sizes", 3, 8, "--problems", 5)
         self.assertEqual([row["rows"] for row in systems], ["3", "8", "3", "8"])
