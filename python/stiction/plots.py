@@ -86,6 +86,8 @@ def path(run: Replay, axes: Any = None) -> Any:
 def rates(store: Store, outcome: str = "cycle", axes: Any = None) -> Any:
     """Of a million runs of a search how many ended so in exact arithmetic, by number of contacts, a line for each
     generator; all policies together. Bars are exact intervals at 95 %."""
+    if outcome == "solved":  # of which suspicions alone are decided exactly
+        raise ValueError("rates: found solved, expected another outcome, as cycle, ray or singular")
     runs, ends = store.tables["statistics"], store.tables["verdicts"]
     axes = _axes(axes)
     for generator in dict.fromkeys(runs["generator"].tolist()):

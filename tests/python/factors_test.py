@@ -73,9 +73,11 @@ class Given(unittest.TestCase):
         """Of each format of scipy, with entries listed twice, integers, and index arrays of 64 bits."""
         same = stiction.Problem(J=J, M=M, w=W, mu=[0.5, 0.25])
         twice = sparse.coo_matrix((np.r_[J[J != 0] / 2, J[J != 0] / 2], np.tile(np.nonzero(J), 2)), J.shape)
+        doubled = sparse.csr_matrix((np.repeat(J[J != 0] / 2, 2), np.repeat(np.nonzero(J)[1], 2),
+                                     np.r_[0, 2 * np.cumsum((J != 0).sum(axis=1))]), J.shape)
         wide = sparse.csr_matrix(J)
         wide.indices, wide.indptr = wide.indices.astype(np.int64), wide.indptr.astype(np.int64)
-        for J_ in (twice, wide, sparse.csr_array(J), sparse.dok_matrix(J), sparse.bsr_matrix(J), sparse.dia_matrix(J),
+        for J_ in (twice, doubled, wide, sparse.csr_array(J), sparse.dok_matrix(J), sparse.bsr_matrix(J), sparse.dia_matrix(J),
                    sparse.csc_matrix(J.astype(int))):
             before = J_.copy()
             for M_ in (sparse.csc_matrix(M), sparse.block_diag([2, 2, M[2:, 2:]]), sparse.csr_array(M)):

@@ -95,6 +95,8 @@ class Same(unittest.TestCase):
                 stiction.solve_many(*arguments)
         with self.assertRaisesRegex(ValueError, "problem 3: .*float"):
             stiction.solve_many(A, large, mu, arithmetic="float")
+        with self.assertRaisesRegex(ValueError, "method: found fast, expected one with a path"):
+            stiction.replay_many(A, b, mu, method="fast")
         with self.assertRaisesRegex(ValueError, "method: found guess"):
             stiction.solve_many(A, b, mu, method="guess")
         with self.assertRaisesRegex(ValueError, "threads: found 0"):

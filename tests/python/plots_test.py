@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """plots_test.py PROGRAM SOURCES: plots show the numbers that they are of; what is not installed is named."""
+import functools
 import os
 import sys
 import tempfile
@@ -26,9 +27,15 @@ SOURCES = Path(sys.argv[2])
 LOOP = SOURCES / "corpus/cycle-every-policy-mu-1.json"
 
 
-def store(folder):
-    file = Path(folder) / "a.store"
-    list(stiction.search(generator=["integers", "bodies"], contacts=[2, 3], mu=1, problems=20000, store=file))
+FOLDER = tempfile.TemporaryDirectory()
+unittest.addModuleCleanup(FOLDER.cleanup)
+
+
+@functools.cache
+def store():
+    file = Path(FOLDER.name) / "a.store"
+    list(stiction.search(generator=["integers", "bodies"], contacts=[2, 3], mu=1, problems=20000, store=file,
+                         finishing=0))
     return stiction.Store(file)
 
 
@@ -68,41 +75,52 @@ class Plots(unittest.TestCase):
         self.drawn(axes)
 
     def test_rates_are_counts_by_runs(self):
-        with tempfile.TemporaryDirectory() as folder:
-            of = store(folder)
-            axes = plots.rates(of)
-            table, ends = of.statistics(), of.tables["verdicts"]
-            for bars, label in zip(axes.containers, axes.get_legend_handles_labels()[1]):
-                for contacts, rate in zip(*bars.lines[0].get_data()):
-                    runs = table["problems"][(table["generator"] == label) & (table["contacts"] == contacts)].sum()
-                    loops = ends["count"][(ends["generator"] == label) & (ends["contacts"] == contacts)
-                                          & (ends["exact_outcome"] == "cycle")].sum()
-                    self.assertAlmostEqual(rate, 1e6 * loops / runs)
-            self.assertEqual(len(axes.containers), 2)
-            self.drawn(axes)
+        axes = plots.rates(store())
+        table, ends = store().statistics(), store().tables["verdicts"]
+        for bars, label in zip(axes.containers, axes.get_legend_handles_labels()[1]):
+            for contacts, rate in zip(*bars.lines[0].get_data()):
+                runs = table["problems"][(table["generator"] == label) & (table["contacts"] == contacts)].sum()
+                loops = ends["count"][(ends["generator"] == label) & (ends["contacts"] == contacts)
+                                      & (ends["exact_outcome"] == "cycle")].sum()
+                self.assertAlmostEqual(rate, 1e6 * loops / runs)
+        self.assertEqual(len(axes.containers), 2)
+        self.drawn(axes)
+
+
+    def test_rates_are_those_of_exact_arithmetic(self):
+        of = mock.Mock(tables={
+            "statistics": {"generator": np.array(["g", "g"]), "contacts": np.array([2, 3]),
+                           "problems": np.array([100, 50]), "method": np.array(["baraff", "baraff"])},
+            "verdicts": {"generator": np.array(["g", "g"]), "contacts": np.array([2, 2]), "count": np.array([3, 4]),
+                         "method": np.array(["baraff", "baraff"]), "exact_outcome": np.array(["cycle", "solved"]),
+                         "inexact_outcome": np.array(["ray", "cycle"])}})
+        np.testing.assert_allclose(plots.rates(of).containers[0].lines[0].get_data(), [[2, 3], [30000, 0]])
+        with self.assertRaisesRegex(ValueError, "rates: found solved, expected"):
+            plots.rates(of, "solved")
 
 
 class Frames(unittest.TestCase):
     @unittest.skipUnless(pandas, "python3-pandas is not installed")
     def test_frames_are_the_tables(self):
-        with tempfile.TemporaryDirectory() as folder:
-            of = store(folder)
-            for name, table in of.tables.items():
-                frame = of.frame(name)
-                self.assertEqual((list(frame.columns), len(frame)), (list(table), len(next(iter(table.values())))))
-                for column, values in table.items():
-                    empty = np.ma.getmaskarray(values)
-                    self.assertEqual(frame[column].isna().tolist(), empty.tolist())
-                    self.assertEqual(frame[column][~empty].tolist(), np.ma.compressed(values).tolist())
-            with self.assertRaisesRegex(ValueError, "frame: found rates, expected one of statistics"):
-                of.frame("rates")
+        masked = 0
+        for name, table in store().tables.items():
+            frame = store().frame(name)
+            self.assertEqual((list(frame.columns), len(frame)), (list(table), len(next(iter(table.values())))))
+            for column, values in table.items():
+                empty = np.ma.getmaskarray(values)
+                masked += int(empty.sum())
+                self.assertEqual(frame[column].isna().tolist(), empty.tolist())
+                self.assertEqual(frame[column][~empty].tolist(), np.ma.compressed(values).tolist())
+        self.assertGreater(masked, 0)
+        with self.assertRaisesRegex(ValueError, "frame: found rates, expected one of statistics"):
+            store().frame("rates")
 
     def test_what_is_not_installed_is_named(self):
         for name in ("matplotlib", "pandas"):
             hidden = {module: None for module in (name, f"{name}.pyplot")}
-            with mock.patch.dict(sys.modules, hidden), tempfile.TemporaryDirectory() as folder:
+            with mock.patch.dict(sys.modules, hidden):
                 with self.assertRaisesRegex(ImportError, f"found no {name}.*python3-{name}.*pip install {name}"):
-                    plots.path(stiction.replay(stiction.load(LOOP))) if name == "matplotlib" else store(folder).frame()
+                    plots.path(stiction.replay(stiction.load(LOOP))) if name == "matplotlib" else store().frame()
 
 
 if __name__ == "__main__":
