@@ -17,18 +17,15 @@
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/over_intervals.h"
-#include "cli/narration/page_of_run.h"
 #include "cli/narration/problem_text.h"
+#include "cli/playable.h"
 #include "cli/shared.h"
-#include "cli/version.h"
 #include "cli/words.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
-#include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "reports/pictures/moving_picture.h"
 #include "reports/pictures/problem_picture.h"
-#include "reports/viewer.h"
 
 namespace stiction {
 namespace {
@@ -113,10 +110,9 @@ std::string CommandOf(const ReplayOptions& o) {
 
 void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
                const std::optional<InexactAnswer>& over_intervals) {
-  const ProblemFile& file = replay.file;
-  WriteText(o.html, ViewerPage(file.name + ", step by step",
-                               PageOfRun(o, replay.file, o.file, replay.picture, solution, over_intervals),
-                               {CommandOf(o), Version(), ProblemDigest(file.problem)}));
+  const Playable playable =
+      PlayableOf(o, replay.file, replay.picture, solution, over_intervals, o.file, CommandOf(o));
+  WriteText(o.html, ViewerPage(replay.file.name + ", step by step", playable.data, playable.origin));
 }
 
 // The period of a loop, again and again; all of another run.

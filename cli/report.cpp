@@ -15,6 +15,7 @@
 #include "certify/claims/checker_files.h"
 #include "cli/command_line.h"
 #include "cli/night.h"
+#include "cli/playable.h"
 #include "cli/records.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
@@ -144,7 +145,8 @@ int ReportStore(const ReportVerb& o) {
                                     KnownFrontiers(),
                                     OwnSearchOf(store),
                                     CampaignLabels(),
-                                    Writing(progress)});
+                                    Writing(progress),
+                                    PlayFinding});
     progress.Clear();
     TellAside(aside);
     text += o.folder + "/index.html\n";

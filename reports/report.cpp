@@ -67,6 +67,28 @@ void WriteMeasures(ReportFiles& folder, const ReportExtras& extras) {
   if (!extras.frontiers.empty()) folder.Write("frontiers.csv", ToCsv(FrontiersTable(extras.frontiers)));
 }
 
+// What the report plays: the simplest loop, or the finding of most interest.
+const Discovery* PlayedOf(const std::vector<Discovery>& discoveries) {
+  if (const Discovery* simplest = SimplestLoop(discoveries)) return simplest;
+  const std::vector<const Discovery*> all = ByInterest(discoveries);
+  return all.empty() ? nullptr : all.front();
+}
+
+// The data of the player; null without one.
+Json WritePlayer(ReportFiles& folder, const std::vector<Discovery>& discoveries, const ReportExtras& extras) {
+  const Discovery* const played = PlayedOf(discoveries);
+  if (played == nullptr || !extras.play) return nullptr;
+  const Finding& finding = *played->representative;
+  const ProblemFile file =
+      ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, finding.signature);
+  std::optional<Playable> playable = extras.play(file, finding.policy, played->files.problem);
+  if (!playable) return nullptr;
+  if (const auto& run = played->minimized ? played->minimized : played->found; run && run->grid.AllLoop())
+    playable->data["every_policy"] = true;
+  folder.Write("replay.html", ViewerPage(file.name + ", step by step", playable->data, playable->origin));
+  return playable->data;
+}
+
 void WriteTables(ReportFiles& folder, const std::string& place, const std::vector<Table>& tables) {
   for (const Table& table : tables) folder.Write(place + table.name + ".csv", ToCsv(table));
 }
@@ -128,7 +150,10 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   }
   const std::vector<Table> figures = Figures(content);
   WriteTables(folder, "figures/", figures);
-  folder.Write("index.html", Page(content, figures));
+  content.player = WritePlayer(folder, content.discoveries, extras);
+  folder.Write("index.html", FrontPage(content, figures));
+  folder.Write("results.html", ResultsPage(content, figures));
+  folder.Write("findings.html", FindingsPage(content));
   folder.WriteSums();
   return whole.Commit();
 }

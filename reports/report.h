@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report: what a store holds, as a page for people, tables for programs, and files to replay and check.
 //
-//   index.html                    one page that needs nothing else
+//   index.html                    what was found: a page that needs nothing else, as the others
+//   results.html                  all that was counted
+//   findings.html                 all findings, each in numbers
+//   replay.html                   the simplest loop, step by step, if there is a finding that plays
 //   statistics.csv verdicts.csv   what was counted (tables/campaign_tables.h)
 //   steps.csv findings.csv agreement.csv solutions.csv
 //   figures/NAME.csv              what the figures of the page draw (figures.h)
@@ -24,15 +27,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "corpus/record/problem_file.h"
 #include "corpus/store/store.h"
 #include "corpus/whole_folder.h"
 #include "reports/page/frontiers.h"
 #include "reports/report_files.h"
+#include "reports/viewer.h"
 
 namespace stiction {
 
@@ -47,6 +54,10 @@ struct ReportExtras {
   OwnSearch own = {};                              // of an optimized search, told beside them
   std::map<std::string, std::string> labels = {};  // of fields of a campaign, where they are not their names
   ShowWriting show = {};                           // told how far it is
+  // Runs a problem under a policy, for the player; nothing for what is too long for a page. `file` is what its
+  // command names.
+  std::function<std::optional<Playable>(const ProblemFile&, const std::string& policy, const std::string& file)>
+      play = {};
 };
 
 // Writes the directory as a whole (corpus/whole_folder.h), so that nothing of an older report stays. The same

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "corpus/json_text.h"
+#include "corpus/json.h"
 
 namespace stiction {
 
@@ -18,6 +18,12 @@ struct ViewerOrigin {
   std::string command;  // as a shell reads it
   std::string version;  // of the program
   std::string digest;   // of the problem (corpus/record/digest.h)
+};
+
+// What a page plays.
+struct Playable {
+  Json data;
+  ViewerOrigin origin;
 };
 
 // `data`: web/data.md has its keys.

@@ -7,6 +7,15 @@
 #include "cli/narration/over_intervals.h"
 
 namespace stiction {
+namespace {
+
+// Every policy of the grid is expected to end as this run does.
+bool EveryPolicyEndsSo(const ProblemFile& file, const Solution& solution) {
+  return file.expect.size() == 1 && file.expect.begin()->first == "*" &&
+         file.expect.begin()->second == Name(solution.outcome());
+}
+
+}  // namespace
 
 Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
                const Solution& solution, const std::optional<InexactAnswer>& over_intervals) {
@@ -21,7 +30,9 @@ Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string&
     const SolveRequest request = PathRequestOf(beside, file.problem, source);
     runs.push_back(Followed(path(beside), file, SolveAsked(file.problem, request, source)));
   }
-  return ReplayPageData(file, picture, runs);
+  Json data = ReplayPageData(file, picture, runs);
+  if (EveryPolicyEndsSo(file, solution)) data["every_policy"] = true;
+  return data;
 }
 
 }  // namespace stiction

@@ -23,17 +23,6 @@ Html StrataLoops(const Record& total, const std::string& across, const char* cap
   return ToHtml(table);
 }
 
-// What the rates are worth.
-Html RateBounds(const Record& total) {
-  const Counts all = CountAll(total);
-  if (all.runs == all.audited + all.suspicious)
-    return Text(" Every run was repeated exactly: none is missing but those that were misjudged.");
-  return Text(fmt::format(
-      " These rates are lower bounds: loops that doubles take for solutions are not among them. Of {} "
-      "runs without a suspicion {} were audited.",
-      Grouped(all.runs - all.suspicious), Grouped(all.audited)));
-}
-
 Html LoopsOfPeriods(const Record& total) {
   if (!total.loops.empty())
     return FigurePlace(
@@ -60,6 +49,16 @@ Html HistogramTable(const Record& total, const std::string& counted, const char*
 }
 
 }  // namespace
+
+Html RateBounds(const Record& total) {
+  const Counts all = CountAll(total);
+  if (all.runs == all.audited + all.suspicious)
+    return Text(" Every run was repeated exactly: none is missing but those that were misjudged.");
+  return Text(fmt::format(
+      " These rates are lower bounds: loops that doubles take for solutions are not among them. Of {} "
+      "runs without a suspicion {} were audited.",
+      Grouped(all.runs - all.suspicious), Grouped(all.audited)));
+}
 
 Html FrequenciesSection(const Record& total) {
   return Section(

@@ -9,7 +9,9 @@ namespace stiction {
 
 std::vector<Table> Figures(const ReportContent& content) {
   const Record& total = content.total;
-  std::vector<Table> all = {RatesFigure(total),
+  std::vector<Table> all = {OftenFigure(total),
+                            CostFigure(total),
+                            RatesFigure(total),
                             VerdictsTable(total, "doubles", {"policy"}, "in_doubles* exact* runs"),
                             TrustFigure(total),
                             StepsTable(total, "steps", {"policy", "contacts"}, "runs"),
@@ -23,9 +25,14 @@ std::vector<Table> Figures(const ReportContent& content) {
   return all;
 }
 
-Json FiguresToJson(const std::vector<Table>& figures) {
+Json FiguresToJson(const std::vector<Table>& figures, const Html& page) {
   Json json = Json::object();
-  for (const Table& figure : figures) json[figure.name] = ToJson(figure);
+  for (const Table& figure : figures) {
+    const std::string place = "data-figure=\"" + figure.name;
+    if (page.markup().find(place + "\"") != std::string::npos ||
+        page.markup().find(place + ".") != std::string::npos)
+      json[figure.name] = ToJson(figure);
+  }
   return json;
 }
 

@@ -15,13 +15,14 @@ namespace stiction {
 
 struct ReportContent;
 
-// Those that have something to draw, in the order of the page: rates, doubles, trust, steps, loop-steps,
-// pivoting, driving, methods (reports/tables/campaign_tables.h), frontiers, rungs. Rates are in a million runs,
-// shares of 1; `low` and `high` are the ends of their exact intervals at 95 % (corpus/intervals.h).
+// Those that have something to draw, in the order of the pages: often, cost, rates, doubles, trust, steps,
+// loop-steps, pivoting, driving, methods (reports/tables/campaign_tables.h), frontiers, rungs. Rates are in a
+// million runs, shares of 1; `low` and `high` are the ends of their exact intervals at 95 %
+// (corpus/intervals.h).
 std::vector<Table> Figures(const ReportContent& content);
 
-// {"NAME": {"columns": [...], "rows": [[...], ...]}, ...}
-Json FiguresToJson(const std::vector<Table>& figures);
+// {"NAME": {"columns": [...], "rows": [[...], ...]}, ...} of those that have a place in a page.
+Json FiguresToJson(const std::vector<Table>& figures, const Html& page);
 
 // The place of a figure in the page, with what it shows, the file of its numbers, and the command that makes
 // it: `made_by`, or the report of this store.

@@ -240,9 +240,9 @@ Html HowMany(std::size_t represented, const std::vector<Discovery>& discoveries)
   const auto all = static_cast<std::int64_t>(discoveries.size());
   const auto here = static_cast<std::int64_t>(represented);
   std::string text =
-      "One row per signature: cycles of safe problems and disagreements of methods first, then fewest "
-      "contacts, then "
-      "those that every policy of the grid shows, then loops before others, then the most frequent. ";
+      "One row per signature: cycles of safe problems and disagreements of methods first, then loops, finished "
+      "ones before others, then fewest contacts, then those that every policy of the grid shows, then the most "
+      "frequent. ";
   text += here == all
               ? "All " + Counted(all, "signature") + (all == 1 ? " is" : " are")
               : fmt::format("{} of {} have a representative and are", Grouped(here), Counted(all, "signature"));
@@ -291,7 +291,12 @@ Json NumbersToJson(const ExactProblem& problem) {
     A.push_back(std::move(numbers));
     b.push_back(ToString(problem.b[row]));
   }
-  return {{"names", RowNames(problem)}, {"A", std::move(A)}, {"b", std::move(b)}, {"mu", MuColumn(problem)}};
+  return {{"names", RowNames(problem)},
+          {"A", std::move(A)},
+          {"b", std::move(b)},
+          {"mu", MuColumn(problem)},
+          {"dimension", problem.dimension},
+          {"contacts", ProblemToJson(problem)["contacts"]}};
 }
 
 Json FilesToJson(const FindingFiles& files) {
@@ -336,14 +341,23 @@ Json FindingToJson(const Discovery& discovery, const std::optional<Since>& since
   json["commands"] = CommandsOf(discovery);
   json["files"] = FilesToJson(discovery.files);
   json["numbers"] = text.size() > kLongestProblem ? Json() : NumbersToJson(problem);
+  if (const auto& run = discovery.minimized ? discovery.minimized : discovery.found; run) {
+    json["looping"] = run->grid.Loops();
+    json["policies"] = run->grid.Total();
+    json["start"] = run->start;
+    json["period"] = run->period;
+  }
   return json;
 }
 
 }  // namespace
 
-Json FindingsToJson(const std::vector<Discovery>& discoveries, const std::optional<Since>& since) {
+Json FindingsToJson(const std::vector<Discovery>& discoveries, const std::optional<Since>& since,
+                    std::size_t most) {
   Json json = Json::array();
-  for (const Discovery* discovery : ByInterest(discoveries)) json.push_back(FindingToJson(*discovery, since));
+  for (const Discovery* discovery : ByInterest(discoveries)) {
+    if (json.size() < most) json.push_back(FindingToJson(*discovery, since));
+  }
   return json;
 }
 

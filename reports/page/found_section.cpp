@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section that says what was found.
+// What was found, counted by kinds.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -104,7 +104,8 @@ Html Tiles(const ReportContent& content) {
   return Tag("ul", {{"class", "tiles"}})(tiles) + Html("\n");
 }
 
-// The best of an optimized search.
+}  // namespace
+
 Html BestSentence(const ReportContent& content) {
   if (content.Objective().empty()) return {};
   std::vector<std::string> bests;
@@ -115,35 +116,15 @@ Html BestSentence(const ReportContent& content) {
          Html("\n");
 }
 
-Html Featured(const std::vector<Discovery>& discoveries) {
-  const Discovery* simplest = SimplestLoop(discoveries);
-  if (simplest == nullptr) return {};
-  const Html title = Tag("h3")(Html("The simplest loop: ") + Tag("code")(simplest->signature));
-  return Tag("div", {{"class", "featured"}})(title + FindingDetails(*simplest)) + Html("\n");
-}
-
-}  // namespace
-
-Html FoundSection(const ReportContent& content) {
-  if (content.units == 0) {
-    return Section("found", "What was found",
-                   Html("<p>The store holds no units: nothing has been searched yet.</p>\n"));
-  }
-  Html found = FoundSentences(content) + BestSentence(content) + Tiles(content);
-  if (content.since) found += SinceText(*content.since, content.discoveries);
-  if (content.discoveries.empty() && !content.Objective().empty()) {
-    found += Html("<p>No loop was kept.</p>\n");
-  } else if (content.discoveries.empty()) {
-    found +=
-        Html("<p>No findings: every run ended in a solution, or exact arithmetic said that it does.</p>\n");
-  } else {
-    std::vector<Discovery> algorithm = content.discoveries, doubles = content.discoveries;
-    std::erase_if(algorithm, [](const Discovery& discovery) { return IsOfDoubles(discovery.kind); });
-    std::erase_if(doubles, [](const Discovery& discovery) { return !IsOfDoubles(discovery.kind); });
-    found += Featured(content.discoveries) + Html("<h3>Groups of findings</h3>\n") +
-             KindTable("Of the algorithm, in exact arithmetic", algorithm) +
-             KindTable("Of doubles: where they differ from exact arithmetic", doubles) + KindNote();
-  }
+Html CountedSection(const ReportContent& content) {
+  Html found = Tiles(content);
+  if (content.discoveries.empty()) return Section("found", "What was found", found);
+  std::vector<Discovery> algorithm = content.discoveries, doubles = content.discoveries;
+  std::erase_if(algorithm, [](const Discovery& discovery) { return IsOfDoubles(discovery.kind); });
+  std::erase_if(doubles, [](const Discovery& discovery) { return !IsOfDoubles(discovery.kind); });
+  found += Html("<h3>Groups of findings</h3>\n") +
+           KindTable("Of the algorithm, in exact arithmetic", algorithm) +
+           KindTable("Of doubles: where they differ from exact arithmetic", doubles) + KindNote();
   return Section("found", "What was found", found);
 }
 

@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "corpus/json.h"
-#include "reports/html/template.h"
 #include "reports/page/page.h"
-#include "reports/report_template.h"
 #include "reports/tables/discovery.h"
 
 namespace stiction {
@@ -98,13 +96,12 @@ Html Files(const std::vector<std::filesystem::path>& files, const std::vector<Ta
 }
 
 Html Links(bool records) {
-  std::vector<std::pair<const char*, const char*>> sections = {
-      {"#found", "Measured"}, {"#method", "Method and definitions"}, {"#rungs", "Speed against accuracy"}};
-  if (records) sections.emplace_back("#frontiers", "Frontiers");
-  sections.insert(sections.end(), {{"#again", "Reproducing it"}, {"#files", "Files"}});
-  Html links;
-  for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
-  return links;
+  std::vector<std::pair<std::string, std::string>> places = {{"#found", "Measured"},
+                                                             {"#rungs", "Speed against accuracy"}};
+  if (records) places.emplace_back("#frontiers", "Frontiers");
+  places.insert(places.end(),
+                {{"#again", "Reproducing it"}, {"#files", "Files"}, {"#method", "Method and definitions"}});
+  return LinksTo(places);
 }
 
 }  // namespace
@@ -115,19 +112,14 @@ std::string BenchName(const std::filesystem::path& file) {
 
 std::string MeasuredPage(const std::vector<RungLine>& lines, const std::vector<FrontierLine>& frontiers,
                          const std::vector<std::filesystem::path>& files, const std::vector<Table>& figures) {
-  const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
-  const bool records = !frontiers.empty();
-  const Json data = {{"figures", FiguresToJson(figures)}, {"findings", Json::array()}};
-  return FilledTemplate(page,
-                        {{"title", Text("stiction: speed against accuracy")},
-                         {"heading", Text("Speed against accuracy of friction solvers")},
-                         {"lead", Html(kMeasuredLead)},
-                         {"how", Html(kHowMeasured)},
-                         {"navigation", Links(records)},
-                         {"found", Section("found", "What was measured", MeasuredSentences(lines))},
-                         {"results", RungsSection(lines) + FrontiersSection(frontiers) + Again(files) +
-                                         Files(files, figures, records)},
-                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  return FilledPage(
+      figures, {.title = "stiction: speed against accuracy",
+                .heading = "Speed against accuracy of friction solvers",
+                .lead = Html(kMeasuredLead),
+                .navigation = Links(!frontiers.empty()),
+                .found = Section("found", "What was measured", MeasuredSentences(lines)) + RungsSection(lines) +
+                         FrontiersSection(frontiers) + Again(files) + Files(files, figures, !frontiers.empty()),
+                .how = Html(kHowMeasured)});
 }
 
 }  // namespace stiction

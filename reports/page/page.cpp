@@ -11,6 +11,7 @@
 #include "corpus/json.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"
+#include "reports/findings_template.h"
 #include "reports/html/template.h"
 #include "reports/report_template.h"
 
@@ -49,20 +50,7 @@ void AddDefinition(Definitions& list, const ReportContent& content) {
   }
 }
 
-// ---- The document ----
-
-constexpr char kLead[] =
-    "<p>A search of random friction problems for inputs on which the pivoting algorithm of D. Baraff,\n"
-    "<cite>Fast Contact Force Computation for Nonpenetrating Rigid Bodies</cite> (SIGGRAPH 1994), run as "
-    "published, repeats a\nstate and so never ends. Every finding was run again in exact rational arithmetic, "
-    "in space over intervals, which prove\nwhat they decide; a finished loop comes with a problem made as "
-    "small as it gets and, in the plane, with a certificate that\nan independent checker verifies.</p>";
-
-constexpr char kOptimizedLead[] =
-    "<p>An optimized search: problems are not drawn, but made worse step by step, as an objective counts what "
-    "is worse for the pivoting algorithm of D. Baraff, <cite>Fast Contact Force Computation for Nonpenetrating "
-    "Rigid Bodies</cite> (SIGGRAPH 1994). Of such problems there are no frequencies. A value counts that exact "
-    "rational arithmetic confirms.</p>";
+// ---- The documents ----
 
 constexpr char kHowOptimized[] =
     "<p><strong>Method.</strong> Candidates come from a seed and from the best of earlier units, are judged in "
@@ -77,35 +65,14 @@ constexpr char kHow[] =
     "method; solutions are verified exactly. The first problem of a kind is certified\nand made smaller, and "
     "says the same at every step of that.</p>";
 
-bool HasFrontiers(const ReportContent& content) {
-  return !content.frontiers.empty() || !content.own.bests.empty();
-}
-
-Html Navigation(const ReportContent& content) {
-  std::vector<std::pair<const char*, const char*>> sections = {{"#found", "Found"},
-                                                               {"#method", "Method and definitions"}};
-  if (content.units > 0 && !content.Objective().empty()) {
-    sections.emplace_back("#findings", "Findings");
-  } else if (content.units > 0) {
-    sections.insert(sections.end(), {{"#frequencies", "How often it fails"},
-                                     {"#outcomes", "Outcomes"},
-                                     {"#doubles", "How often doubles lie"},
-                                     {"#steps", "Steps"},
-                                     {"#methods", "Methods side by side"},
-                                     {"#existence", "Existence and agreement"},
-                                     {"#findings", "Findings"}});
-  }
-  if (HasFrontiers(content)) sections.emplace_back("#frontiers", "Frontiers");
-  sections.insert(sections.end(),
-                  {{"#rungs", "Speed against accuracy"}, {"#again", "Reproducing it"}, {"#files", "Files"}});
-  Html links;
-  for (const auto& [id, title] : sections) links += Tag("a", {{"href", id}})(title) + Html("\n");
-  return links;
-}
+}  // namespace
 
 Html FilesSection() {
   Html list;
   for (const auto& [file, meaning] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"index.html", "what was found"},
+           {"results.html", "all tables and figures"},
+           {"findings.html", "all findings, each in numbers"},
            {"statistics.csv", "all counters, sums and maxima per generator, contacts and policy"},
            {"verdicts.csv", "runs repeated exactly on suspicion: what doubles said, what is exact"},
            {"strata.csv", "outcomes of doubles and of exact runs by friction coefficient and rank"},
@@ -122,6 +89,7 @@ Html FilesSection() {
     const Html linked = std::string_view(file).ends_with("/") ? name : Tag("a", {{"href", file}})(name);
     list += Tag("li")(linked + Html(": ") + Text(meaning)) + Html("\n");
   }
+  list += Html("<li><code>replay.html</code>: the simplest loop, step by step, where there is one</li>\n");
   list +=
       Tag("li")(Html(
           "<code>findings/</code>: of every representative the minimized problem (or, until there "
@@ -132,24 +100,6 @@ Html FilesSection() {
       Html("\n");
   return Section("files", "Files beside this page", Tag("ul")(list));
 }
-
-// All but what was found.
-Html Results(const ReportContent& content) {
-  const Html end = FrontiersSection(content.frontiers, content.own.bests) + RungsSection(content.rungs) +
-                   AgainSection(content) + FilesSection();
-  if (content.units == 0) return end;
-  if (!content.Objective().empty()) return FindingsSection(content.discoveries, content.since) + end;
-  return FrequenciesSection(content.total) + OutcomesSection(content.total) + DoublesSection(content.total) +
-         StepsSection(content.total) + MethodsSection(content) + ExistenceSection(content.total) +
-         FindingsSection(content.discoveries, content.since) + end;
-}
-
-Json PageData(const ReportContent& content, const std::vector<Table>& figures) {
-  return {{"figures", FiguresToJson(figures)},
-          {"findings", FindingsToJson(content.discoveries, content.since)}};
-}
-
-}  // namespace
 
 std::string ReportContent::Objective() const {
   const Json definition = JsonOrText(identity.definition);
@@ -170,7 +120,8 @@ Html AgainCommands(const ReportContent& content) {
   const std::string search =
       fmt::format("stiction search campaign.json --seed {} --problems {} --store again.store",
                   content.identity.seed, AskedProblems(content));
-  return Tag("pre")(Tag("code")(search + "\nstiction report again.store -o again"));
+  return Tag("pre")(Tag("code")("stiction() { /path/to/stiction/run \"$@\"; }\n" + search +
+                                "\nstiction report again.store -o again"));
 }
 
 Html AgainSection(const ReportContent& content) {
@@ -184,33 +135,95 @@ Html AgainSection(const ReportContent& content) {
   list.Add("units", Grouped(content.units));
   list.Add("complete blocks",
            fmt::format("{} of {} units each", Grouped(content.blocks), Grouped(Store::kUnitsPerBlock)));
-  const Html commands =
-      content.units > 0
-          ? Html(
-                "<p>The same campaign, with the same build, gives the same problems, outcomes and findings "
-                "on any machine and any number of threads:</p>\n") +
-                AgainCommands(content)
-          : Html();
+  const Html commands = content.units > 0
+                            ? Html(
+                                  "<p>In the folder of this page. The same campaign, with the same build, "
+                                  "gives the same problems, "
+                                  "outcomes and findings on any machine and any number of threads.</p>\n") +
+                                  AgainCommands(content)
+                            : Html();
   return Section("again", "Reproducing it",
-                 commands + list.Done() +
+                 commands + Html("<details class=\"folded\"><summary>The campaign in full</summary>\n") +
+                     list.Done() +
                      Html("<p class=\"note\">Machines and processor times, which another run of the same "
                           "campaign need not repeat, stand in <a href=\"work.csv\"><code>work.csv</code></a> "
-                          "alone.</p>\n"));
+                          "alone.</p></details>\n"));
 }
 
-std::string Page(const ReportContent& content, const std::vector<Table>& figures) {
+Html MethodText(const ReportContent& content) {
+  return content.Objective().empty() ? Html(kHow) : Html(kHowOptimized);
+}
+
+bool HasFrontiers(const ReportContent& content) {
+  return !content.frontiers.empty() || !content.own.bests.empty();
+}
+
+std::vector<std::pair<std::string, std::string>> PlacesOfResults(const ReportContent& content) {
+  std::vector<std::pair<std::string, std::string>> places;
+  if (content.units > 0) places.emplace_back("#found", "What was found");
+  if (content.units > 0 && content.Objective().empty()) {
+    places.insert(places.end(), {{"#frequencies", "How often it fails"},
+                                 {"#outcomes", "Outcomes"},
+                                 {"#doubles", "How often doubles lie"},
+                                 {"#steps", "Steps"},
+                                 {"#methods", "Methods side by side"},
+                                 {"#existence", "Existence and agreement"}});
+  }
+  if (HasFrontiers(content)) places.emplace_back("#frontiers", "Frontiers");
+  places.insert(places.end(), {{"#rungs", "Speed against accuracy"}, {"#files", "Files"}});
+  return places;
+}
+
+Html LinksTo(const std::vector<std::pair<std::string, std::string>>& places) {
+  Html links;
+  for (const auto& [place, title] : places) links += Tag("a", {{"href", place}})(title) + Html("\n");
+  return links;
+}
+
+std::string FilledPage(const std::vector<Table>& figures, const PageParts& parts) {
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
-  const bool random = content.Objective().empty();
-  return FilledTemplate(
-      page,
-      {{"title", Text("stiction: does Baraff's contact force algorithm always end?")},
-       {"heading", Text("Does Baraff’s contact force algorithm always end?")},
-       {"lead", random ? Html(kLead) : Html(kOptimizedLead)},
-       {"how", random ? Html(kHow) : Html(kHowOptimized)},
-       {"navigation", Navigation(content)},
-       {"found", FoundSection(content)},
-       {"results", Results(content)},
-       {"data", ScriptData(PageData(content, figures).dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  const Json data = {{"figures", FiguresToJson(figures, parts.found + parts.more)},
+                     {"findings", parts.findings},
+                     {"player", parts.player}};
+  return FilledTemplate(page,
+                        {{"title", Text(parts.title)},
+                         {"heading", Text(parts.heading)},
+                         {"lead", parts.lead},
+                         {"how", parts.how},
+                         {"navigation", parts.navigation},
+                         {"found", parts.found},
+                         {"more", parts.more},
+                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+}
+
+std::string ResultsPage(const ReportContent& content, const std::vector<Table>& figures) {
+  Html results;
+  if (content.units > 0) results += CountedSection(content);
+  if (content.units > 0 && content.Objective().empty()) {
+    results += FrequenciesSection(content.total) + OutcomesSection(content.total) +
+               DoublesSection(content.total) + StepsSection(content.total) + MethodsSection(content) +
+               ExistenceSection(content.total);
+  }
+  results +=
+      FrontiersSection(content.frontiers, content.own.bests) + RungsSection(content.rungs) + FilesSection();
+  return FilledPage(
+      figures,
+      {.title = "stiction: all results of a report",
+       .heading = "All results",
+       .lead = Html("<p>Every table and figure of <a href=\"index.html\">the report</a>. Findings one by one "
+                    "have <a href=\"findings.html\">a page of their own</a>.</p>"),
+       .navigation = LinksTo(PlacesOfResults(content)),
+       .found = results,
+       .how = MethodText(content)});
+}
+
+std::string FindingsPage(const ReportContent& content) {
+  const std::string page(std::begin(kFindingsTemplate), std::end(kFindingsTemplate));
+  const Json data = {{"findings", FindingsToJson(content.discoveries, content.since)},
+                     {"plays", content.player.is_null() ? Json(0) : content.player["problem"]["dimension"]}};
+  return FilledTemplate(page,
+                        {{"found", FindingsSection(content.discoveries, content.since)},
+                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
 }
 
 }  // namespace stiction

@@ -28,8 +28,8 @@ struct Asking {
   }
 };
 
-Html Sentence(const std::string& lead, const std::string& rest) {
-  return Tag("li")(Tag("strong")(lead) + Html(" ") + Text(rest)) + Html("\n");
+Html Sentence(const std::string& lead, const std::string& rest, const char* style = "") {
+  return Tag("p", {{"class", style}})(Tag("strong")(lead) + Html(" ") + Text(rest)) + Html("\n");
 }
 
 std::string Spread(const std::set<int>& contacts) {
@@ -56,13 +56,14 @@ Html LoopSentence(const Counts& sums) {
   if (loops == 0)
     return Sentence(
         "No loop was seen.",
-        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate));
+        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate), "claim");
   return Sentence(
       "It does not always end.",
       fmt::format(
           "{} of {} runs repeat a state, in exact arithmetic or, in space, by intervals, and so go on for "
           "ever: {} in a million runs.",
-          Grouped(loops), Grouped(sums.runs), rate));
+          Grouped(loops), Grouped(sums.runs), rate),
+      "claim");
 }
 
 Html GridSentence(const std::vector<Discovery>& discoveries) {
@@ -136,16 +137,16 @@ Html LyingSentence(const Counts& sums) {
 
 }  // namespace
 
-Html FoundSentences(const ReportContent& content) {
+Sentences SentencesOf(const ReportContent& content) {
   const Counts sums = CountAll(content.total);
-  if (sums.runs == 0) return Html();
-  return Asked(content, sums) +
-         Tag("ul", {{"class", "answers"}})(Html("\n") + LoopSentence(sums) + GridSentence(content.discoveries) +
-                                           OtherFailures(sums) + CompleteSentence(content.total) +
-                                           AgreementSentence(content.total) + LyingSentence(sums)) +
-         Html(
-             "\n<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by "
-             "Clopper and Pearson.</p>\n");
+  if (sums.runs == 0) return {};
+  return {Asked(content, sums),
+          LoopSentence(sums),
+          GridSentence(content.discoveries),
+          OtherFailures(sums),
+          CompleteSentence(content.total),
+          AgreementSentence(content.total),
+          LyingSentence(sums)};
 }
 
 }  // namespace stiction

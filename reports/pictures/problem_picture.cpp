@@ -50,7 +50,10 @@ Json PictureOfProblem(const SceneIn<Kind, double>& scene,
     const Vector2<double> at = Seen(PointOf(scene, contacts, constraint));
     places.push_back({{"at", InPicture(screen.X(at), screen.Y(at))}, {"rows", WaysOf(scene, constraint)}});
   }
-  return {{"svg", DrawSvg(scene, view, MarksIn<Kind>(), 1)}, {"contacts", std::move(places)}};
+  const Vector2<double> gravity = Seen(scene.gravity);
+  return {{"svg", DrawSvg(scene, view, MarksIn<Kind>(), 1)},
+          {"contacts", std::move(places)},
+          {"gravity", InPicture(gravity[0], -gravity[1])}};
 }
 
 namespace {

@@ -14,9 +14,9 @@ namespace stiction {
 
 struct ProblemFile;  // corpus/record/problem_file.h
 
-// {"svg": "<svg ...>", "contacts": [{"at": [x, y], "rows": [[x, y], ...]}, ...]}, of the contacts of an island
-// in the order of its problem. `at` in pixels of the picture, y down; `rows`: which way a force of 1 N of each
-// row points, as draw.h shows forces, in the picture's plane: in space shorter than 1.
+// {"svg": "<svg ...>", "contacts": [{"at": [x, y], "rows": [[x, y], ...]}, ...], "gravity": [x, y]}, of the
+// contacts of an island in the order of its problem. `at` in pixels of the picture, y down; `rows`: which way a
+// force of 1 N of each row points, as draw.h shows forces, in the picture's plane: in space shorter than 1.
 template <class Kind>
 Json PictureOfProblem(const SceneIn<Kind, double>& scene,
                       const std::vector<TouchPointIn<Kind, Rational>>& contacts,

@@ -17,9 +17,9 @@ namespace stiction {
 
 // ---- Sums that are finite where all of their numbers are ---------------------------------------
 
-inline double SumOf(double x) { return x; }
+inline double SumOfVector(double x) { return x; }
 template <class Numbers>
-double SumOf(const Numbers& numbers) {
+double SumOfVector(const Numbers& numbers) {
   return numbers.sum();
 }
 inline double SumOfInertia(double inertia) { return inertia + 1 / inertia; }
@@ -30,8 +30,8 @@ inline double SumOfInertia(const Matrix3<double>& inertia) {
 template <class Kind>
 double SumOfNumbers(const BodyIn<Kind, double>& body) {
   return body.mass + 1 / body.mass + SumOfInertia(body.inertia) + body.position.sum() + body.rotation.sum() +
-         body.velocity.sum() + SumOf(body.spin) + body.acceleration.sum() + body.force.sum() +
-         SumOf(body.torque);
+         body.velocity.sum() + SumOfVector(body.spin) + body.acceleration.sum() + body.force.sum() +
+         SumOfVector(body.torque);
 }
 
 // ---- The scene -----------------------------------------------------------------------------------

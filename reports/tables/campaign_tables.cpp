@@ -196,6 +196,34 @@ Table RatesFigure(const Record& record) {
   return table;
 }
 
+Table OftenFigure(const Record& record) {
+  Table table = Keyed("often", "", {"policy", "contacts", "friction"}, Columns("runs loops,,rate,low,high"));
+  for (const Group& g : GroupsBy(record, {"policy", "contacts", "friction"})) {
+    if (g.counts.runs > 0) table.Add(Behind(g, {g.counts.runs, RateOf(g.counts.Loops(), g.counts.runs)}));
+  }
+  return table;
+}
+
+Table CostFigure(const Record& record) {
+  Table table = Keyed("cost", "", {"policy", "contacts"},
+                      Columns("runs median of_99_percent most zero_steps,,zero_share,zero_low,zero_high "
+                              "give_ups,,give_up_share,give_up_low,give_up_high"));
+  for (const Group& g : GroupsBy(record, {"policy", "contacts"})) {
+    const Counts& c = g.counts;
+    if (c.runs == 0) continue;
+    const auto within = [&g](double share) {
+      std::int64_t below = 0;
+      int steps = 0;
+      const auto wanted = share * static_cast<double>(g.tally.problems);
+      while (steps < Tally::kBins - 1 && static_cast<double>(below += g.tally.steps[steps]) < wanted) ++steps;
+      return steps;
+    };
+    table.Add(Behind(g, {c.runs, within(0.5), within(0.99), g.tally.maxima.steps,
+                         ShareOf(c.with_zero_steps, c.runs), ShareOf(c.with_give_ups, c.runs)}));
+  }
+  return table;
+}
+
 Table TrustFigure(const Record& record) {
   Table table = Keyed("trust", "", {"generator"}, {{"audited runs, misjudged"}, {"runs with a wrong answer"}});
   for (const Group& g : GroupsBy(record, {"generator"})) {

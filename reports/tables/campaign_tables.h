@@ -38,6 +38,10 @@ Table StepsTable(const Record& record, const std::string& name, const By& by, co
 Table ZeroStepsTable(const Record& record, const std::string& name);
 // Failures confirmed exactly, by contacts, friction (mu) and rank.
 Table RatesFigure(const Record& record);
+// Loops confirmed exactly of all generators together, by contacts and friction.
+Table OftenFigure(const Record& record);
+// Steps of a run, at most so many in half of the runs, in 99 of 100, in all; and shares of runs.
+Table CostFigure(const Record& record);
 // Audited runs that were misjudged, and solutions that are none, by generator.
 Table TrustFigure(const Record& record);
 // Runs with a step of length zero, and with something given up.

@@ -106,11 +106,11 @@ bool GridOutcomes::IsAll(std::string_view outcome) const {
   return false;
 }
 
-bool GridOutcomes::AllLoop() const {
-  const std::int64_t loops =
-      counts[static_cast<int>(Outcome::kCycle)] + counts[static_cast<int>(Outcome::kStall)];
-  return loops > 0 && loops == Total();
+std::int64_t GridOutcomes::Loops() const {
+  return counts[static_cast<int>(Outcome::kCycle)] + counts[static_cast<int>(Outcome::kStall)];
 }
+
+bool GridOutcomes::AllLoop() const { return Loops() > 0 && Loops() == Total(); }
 
 bool Discovery::IsLoop() const { return IsLoopKind(kind); }
 
@@ -154,7 +154,7 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
   }
   const auto rank = [](const Discovery* d) {
     // The shorter the text of the minimized problem, the smaller its numbers.
-    return std::tuple(Gravity(d->kind), d->SmallestContacts(), !d->WholeGrid(), !d->IsLoop(),
+    return std::tuple(Gravity(d->kind), !d->IsLoop(), !d->Finished(), d->SmallestContacts(), !d->WholeGrid(),
                       d->representative->minimized.size(), -d->met);
   };
   std::stable_sort(sorted.begin(), sorted.end(),

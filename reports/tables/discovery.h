@@ -22,7 +22,8 @@ struct GridOutcomes {
 
   std::int64_t Total() const;
   bool IsAll(std::string_view outcome) const;  // every policy ends in it; false for an empty grid
-  bool AllLoop() const;                        // in a cycle or a stall
+  std::int64_t Loops() const;                  // in a cycle or a stall
+  bool AllLoop() const;
 };
 
 // One of the two runs that a finished finding's facts describe: of the problem as found, of the minimized one.
@@ -86,8 +87,8 @@ std::vector<Discovery> Discoveries(const Record& record, const std::vector<Findi
 // (corpus/store/store_totals.h); null if none is minimized.
 const Discovery* SimplestLoop(const std::vector<Discovery>& discoveries);
 
-// The order of interest: grave kinds (kinds.h), fewest contacts, then those that the whole grid shows, then
-// loops, then the most frequent, then by signature. Only those with a representative.
+// The order of interest: grave kinds (kinds.h), loops, finished ones, fewest contacts, then those that the
+// whole grid shows, then the most frequent, then by signature. Only those with a representative.
 std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveries);
 
 // A signature as a file name without extension: letters, digits and -_=,@ stay; a name that had to be changed

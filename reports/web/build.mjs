@@ -14,7 +14,7 @@ import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const pages = ['animation', 'viewer', 'report', 'comparison', 'paste'];
+const pages = ['animation', 'viewer', 'report', 'findings', 'comparison', 'paste'];
 
 async function bundle(file, define = {}) {
   const result = await build({

@@ -85,7 +85,7 @@ class Numbers(cli.TestCase):
             self.assertNotRegex(text, r"disagreement-\S+ +[\d,]+ +[\d,]+ +[\d.]+ \[")  # no rate of signatures
 
     def test_the_page_and_its_figures(self):
-        page = plain((self.report / "index.html").read_text())
+        page = plain("".join((self.report / name).read_text() for name in ("index.html", "results.html")))
         said = re.search(r"([\d,]+) of ([\d,]+) runs repeat a state", page)
         self.assertEqual((number(said[1]), number(said[2])), (self.loops, self.runs))
         self.assertEqual(number(re.search(r"([\d,]+) runs that loop, exactly", page)[1]), self.loops)

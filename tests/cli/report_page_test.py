@@ -37,6 +37,15 @@ masses,8,complete,filtered,25,24,0,1,0,0,0,0.2,0,0,0.1,7,8.5,9,0,0,0,0
 """
 
 
+# Of a report of a store.
+PAGES = ("index.html", "results.html", "findings.html")
+
+
+def pages(report):
+    """The text of all pages of a report."""
+    return "".join((report / name).read_text() for name in PAGES)
+
+
 def tables(report):
     with open(report, newline="") as file:
         return list(csv.DictReader(file))
@@ -78,7 +87,7 @@ class Page(cli.TestCase):
             cls.must("search", *CAMPAIGN, "--problems", problems, "--store", cls.store, "--finishing", 100)
             cls.must("report", cls.store, "-o", cls.pages / report)
         cls.report = cls.pages / "small"
-        cls.page = (cls.report / "index.html").read_text()
+        cls.page = pages(cls.report)
 
     @classmethod
     def must(cls, *arguments):
@@ -86,8 +95,8 @@ class Page(cli.TestCase):
         if done.code != 0:
             raise AssertionError(f"{arguments}: exit {done.code}\n{done.err}")
 
-    def data(self):
-        return json.loads(re.search(r'id="data">(.*?)</script>', self.page, re.S)[1])
+    def data(self, page="findings.html"):
+        return json.loads(re.search(r'id="data">(.*?)</script>', (self.report / page).read_text(), re.S)[1])
 
     def test_what_is_drawn_is_what_the_store_holds(self):
         tallies, _ = cli.total(self.store)
@@ -135,6 +144,21 @@ class Page(cli.TestCase):
             self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
             self.assertEqual(finding["files"][0], row["problem_file"])
 
+    def test_the_first_page_has_few_findings_and_little_weight(self):
+        first = (self.report / "index.html").read_text()
+        signatures = [finding["signature"] for finding in self.data()["findings"]]
+        self.assertGreater(len(signatures), 10)
+        self.assertEqual([finding["signature"] for finding in self.data("index.html")["findings"]], signatures[:6])
+        for signature in signatures[6:]:
+            self.assertNotIn(f">{signature}<", first)
+        self.assertLess(len(first), 600000)
+        self.assertLess(sum((self.report / name).stat().st_size for name in PAGES[:2]), 1000000)
+
+    def test_findings_begin_with_loops_finished_ones_first(self):
+        order = [(not finding["loop"], finding["state"] != "finished") for finding in self.data()["findings"]]
+        self.assertEqual(order, sorted(order))
+        self.assertGreater(len(set(order)), 1)
+
     def test_every_scene_has_its_picture(self):
         pictures = 0
         for finding in self.data()["findings"]:
@@ -150,7 +174,7 @@ class Page(cli.TestCase):
         store, report = self.folder / "g.store", self.folder / "g"
         self.succeeds("search", "--store", store, "--generator", "scenes", "--gravity-only", "--contacts", 2, "--problems", 200)
         self.succeeds("report", store, "-o", report)
-        for page in (self.page, (report / "index.html").read_text()):
+        for page in (self.page, pages(report)):
             names = re.findall(r"<dt>(.*?)</dt>", page)
             self.assertIn("friction palette", names)
             self.assertEqual([name for name in names if "_" in name], [])
@@ -167,7 +191,7 @@ class Page(cli.TestCase):
         for record in records:
             self.assertIn(record["what"], section)
             self.assertIn(record["command"], section)
-        self.assertIn('href="#frontiers"', self.page)
+        self.assertIn('href="results.html#frontiers"', self.page)
 
     def test_benchmarks_alone_make_a_report(self):
         bench = self.file("trade.csv", RUNGS)
@@ -206,12 +230,12 @@ class Page(cli.TestCase):
                       "--store", store)
         self.succeeds("report", store, "-o", out)
         best = json.loads(self.succeeds("report", store, "--text", "--json").out)["best"]
-        section = re.search(r'<section id="frontiers">.*?</section>', (out / "index.html").read_text(), re.S)[0]
+        section = re.search(r'<section id="frontiers">.*?</section>', (out / "results.html").read_text(), re.S)[0]
         table = section[:section.index("</table>")]
         cells = [html.unescape(re.sub("<.*?>", "", cell)) for cell in re.findall(r"<td.*?</td>|<th[^>]*row.*?</th>", table)]
         record = next(row["value"] for row in tables(out / "frontiers.csv") if row["frontier"] == "steps-3-contacts")
         self.assertEqual(len(best), 1)
-        page = html.unescape((out / "index.html").read_text())
+        page = html.unescape(pages(out))
         self.assertIn(f"The best: {best[0]['value']:g} steps (integers, 3 contacts).", page)
         for wrong in ("0 problems run", "random friction problems", "Every run", 'id="frequencies"'):
             self.assertNotIn(wrong, page)
@@ -238,8 +262,9 @@ class Page(cli.TestCase):
         section = self.page[self.page.index('<section id="again">'):]
         commands = html.unescape(re.search(r"<pre><code>(.*?)</code></pre>", section, re.S)[1])
         folder = shutil.copytree(self.report, self.folder / "again")
-        program = f'set -e; stiction() {{ {cli.program} "$@"; }}\n'
-        script = program + commands.replace("--store", "--finishing 0 --store")
+        commands = commands.replace("/path/to/stiction/run", str(cli.program))
+        self.assertEqual(len(commands.split("\n")), 3)
+        script = "set -e; " + commands.replace("--store", "--finishing 0 --store")
         done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, timeout=900)
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("rates", "steps", "doubles", "trust", "pivoting", "loop-steps", "driving"):

@@ -293,6 +293,16 @@ void RequireWellFormed(const std::string& whole) {
   REQUIRE(Matches(page, "(&)(?!(?:amp|lt|gt|quot|#39);)").empty());
 }
 
+// The pages of a report, each well formed, one after the other.
+std::string PagesOf(const fs::path& report) {
+  std::string pages;
+  for (const char* name : {"index.html", "results.html", "findings.html"}) {
+    pages += ReadText(report / name);
+    RequireWellFormed(ReadText(report / name));
+  }
+  return pages;
+}
+
 // ---- CSV ----
 
 TEST_CASE("report: statistics.csv holds every counter of every tally") {
@@ -508,11 +518,11 @@ TEST_CASE("report: what Ipopt made of each finished finding, and how often it le
   std::map<std::string, std::string> answers;
   for (const Row& row : table) answers[row.at("signature")] = row.at("outcome") + " " + row.at("starts");
   CHECK(answers == std::map<std::string, std::string>{{kDone, "solved 2"}, {kPending, "undecided 20"}});
-  CHECK(Has(ReadText(scratch / "out/index.html"), "of 1 of 2 finished findings, 50 % [1.25, 98.8], after 2"));
+  CHECK(Has(PagesOf(scratch / "out"), "of 1 of 2 finished findings, 50 % [1.25, 98.8], after 2"));
   absent.facts.replace(absent.facts.find(solved), solved.size(), R"("outcome":"unavailable","starts":0)");
   store.Finish(absent);
   WriteReport(store, scratch / "again");
-  CHECK(Has(ReadText(scratch / "again/index.html"), "it could not be asked about 1;"));
+  CHECK(Has(PagesOf(scratch / "again"), "it could not be asked about 1;"));
 }
 
 TEST_CASE("report: findings.csv holds every signature with its count and facts") {
@@ -633,11 +643,13 @@ TEST_CASE("report: every file that is named exists") {
          {"problem_file", "original_file", "certificate_file", "existence_file", "original_existence_file"})
       named.insert(row.at(column));
   }
-  const std::string page = TextOf(ReadText(scratch / "out/index.html"));
-  for (const std::string& link : Matches(page, "href=\"([^#\"][^\"]*)\"")) named.insert(link);
+  std::string page;
+  for (const char* name : {"index.html", "results.html", "findings.html"})
+    page += TextOf(ReadText(scratch / "out" / name));
+  for (const std::string& link : Matches(page, "href=\"([^#\"][^#\"]*)[^\"]*\"")) named.insert(link);
   for (const std::string& file : Matches(page, "(findings/[^ <\"]*\\.json)")) named.insert(file);
   named.erase("");
-  CHECK(named.size() == 13 + 8 + 5 + 2);  // tables, figures, files of findings
+  CHECK(named.size() == 3 + 13 + 10 + 5 + 2);  // pages, tables, figures, files of findings
   for (const std::string& file : named) {
     INFO(file);
     CHECK(fs::is_regular_file(scratch / "out" / file));
@@ -715,8 +727,7 @@ TEST_CASE("draw: a page escapes the name of its scene, and its frames are JSON, 
 TEST_CASE("report: the page says what the store holds, with separated thousands") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "<strong>2,005,100</strong> <span>problems run</span>"));
   const Counts counts = CountAll(SampleRecord());
   CHECK(Has(page, "<strong>" + Grouped(counts.Loops()) + "</strong> <span>runs that loop, exactly</span>"));
@@ -741,8 +752,7 @@ TEST_CASE("report: the table of work names the machines that searched, and nothi
   work.machines = {"Processor <9>, 8 cores", "another"};
   store.AddUnit({}, 0, SampleRecord(), {}, {}, work);
   WriteReport(store, scratch / "named");
-  const std::string page = ReadText(scratch / "named/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "named");
   const std::string work_table = ReadText(scratch / "named/work.csv");
   CHECK(Has(work_table, "machine,,\"Processor <9>, 8 cores\"\r\n"));
   CHECK(Has(work_table, "machine,,another\r\n"));
@@ -754,8 +764,8 @@ TEST_CASE("report: the table of work names the machines that searched, and nothi
 TEST_CASE("report: a page without measurements names the commands that make them") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  CHECK(Has(page, "<a href=\"#rungs\">Speed against accuracy</a>"));
+  const std::string page = PagesOf(scratch / "out");
+  CHECK(Has(page, "<a href=\"results.html#rungs\">Speed against accuracy</a>"));
   CHECK(Has(page, "stiction bench --suite trade --csv trade.csv\n"));
   CHECK(Has(page, "stiction report STORE --bench trade.csv extremes.csv -o DIR"));
   CHECK(!Has(page, "data-figure=\"rungs\""));
@@ -775,8 +785,7 @@ TEST_CASE("report: the page says how often runs fail exactly, with intervals and
     store.AddUnit(Shard{}, 0, record, {});
   }
   WriteReport(Store::OpenToRead(scratch / "s"), scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, ">3<small>0.75 [0.154, 2.2]</small>"));
   CHECK(Has(page, ">0<small>0 [0, 0.923]</small>"));
   CHECK(Has(page, ">2<small>0.25 % [0.0302, 0.901]</small>"));
@@ -808,8 +817,7 @@ TEST_CASE("template: each mark is filled once, and what fills one is not read fo
 TEST_CASE("report: an empty store gives a page that says so, and tables of a header line") {
   const Scratch scratch;
   WriteReport(Store(scratch / "s", kIdentity), scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "The store holds no units"));
   CHECK(Has(page, "<dd>4711</dd>"));
   for (const char* file : {"statistics.csv", "verdicts.csv", "steps.csv", "findings.csv", "agreement.csv",
@@ -823,8 +831,7 @@ TEST_CASE("report: units without findings, or without any tally, are no trouble"
   Store store(scratch / "s", kIdentity);
   store.AddUnit({}, 0, Record{}, {});
   WriteReport(store, scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "No findings"));
 }
 
@@ -843,9 +850,9 @@ TEST_CASE("report: whatever stands in a store is shown as text") {
     store.AddUnit({}, 0, record, {finding});
     if (done) store.Finish(Finished(finding));
     WriteReport(store, out);
-    const std::string page = ReadText(out / "index.html");
-    RequireWellFormed(page);
-    CHECK_FALSE(Has(TextOf(page), "<script"));
+    const std::string page = PagesOf(out);
+    for (const char* name : {"index.html", "results.html", "findings.html"})
+      CHECK_FALSE(Has(TextOf(ReadText(out / name)), "<script"));
     CHECK(DataOf(page)["findings"][0]["signature"] == "cycle-2c-" + evil);
     CHECK_FALSE(Has(page, "\x01"));
     CHECK(Has(page, "&lt;/td&gt;&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;&#39;\xEF\xBF\xBD"));
@@ -863,8 +870,7 @@ TEST_CASE("report: remarks of a campaign are told as text, in every medium") {
   store.AddUnit({}, 0, SampleRecord(), {});
   WriteReport(store, scratch / "out", Occupied::kRefused,
               {.latex = true, .labels = {{"why", "reason"}, {"mu", "palette"}}});
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "<dt>reason</dt><dd>&lt;b&gt;50 % &amp; more</dd>"));
   CHECK(Has(page, "<dt>palette</dt><dd>1/2, 5</dd>"));
   CHECK(Has(page, "<dt>unit_problems</dt><dd>10,000</dd>"));
@@ -885,8 +891,7 @@ TEST_CASE("report: a policy in a command is a single shell word") {
   finding.policy = "x; rm 'y'";
   store.AddUnit({}, 0, SampleRecord(), {finding});
   WriteReport(store, scratch / "out");
-  CHECK(Has(ReadText(scratch / "out/index.html"),
-            "--policy &#39;x; rm &#39;\\&#39;&#39;y&#39;\\&#39;&#39;&#39; --step"));
+  CHECK(Has(PagesOf(scratch / "out"), "--policy &#39;x; rm &#39;\\&#39;&#39;y&#39;\\&#39;&#39;&#39; --step"));
 }
 
 TEST_CASE("report: of many findings some stand in the page as text, and all as data and in findings.csv",
@@ -905,14 +910,15 @@ TEST_CASE("report: of many findings some stand in the page as text, and all as d
   Store store(scratch / "s", kIdentity);
   store.AddUnit({}, 0, record, findings);
   WriteReport(store, scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   const auto shown = Matches(page, "<th scope=\"row\" class=\"signature\"><code>([^<]*)</code>");
   REQUIRE(shown.size() == kFindingsShown);
   CHECK(shown[0] == fmt::format("cycle-2c-4d-10s-{:016x}", 0));
   CHECK(shown[1] == fmt::format("cycle-2c-4d-10s-{:016x}", many - 1));
   CHECK(Has(page, "All 320 signatures are here, without a script the first 300"));
-  const Json listed = DataOf(page)["findings"];
+  CHECK(DataOf(page)["findings"].size() == kFindingsNamed);  // of the first page
+  CHECK_FALSE(Has(ReadText(scratch / "out/index.html"), shown[kFindingsNamed]));
+  const Json listed = DataOf(ReadText(scratch / "out/findings.html"))["findings"];
   REQUIRE(listed.size() == static_cast<std::size_t>(many));
   CHECK(listed[0]["signature"] == shown[0]);
   CHECK(listed[301]["story"] == listed[1]["story"]);
@@ -928,8 +934,7 @@ TEST_CASE("report: numbers too long to read stay out of the page") {
   Store store(scratch / "s", kIdentity);
   store.AddUnit({}, 0, SampleRecord(), {finding});
   WriteReport(store, scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "too long for a page"));
   CHECK_FALSE(Has(page, digits));
   CHECK(Has(ReadText(scratch / ("out/findings/" + kDone + ".json")), digits));
@@ -967,7 +972,7 @@ TEST_CASE("report: findings of interest come first") {
   std::vector<std::string> order;
   for (const Discovery* discovery : ByInterest(discoveries)) order.push_back(discovery->signature);
   CHECK(order == std::vector<std::string>{small.signature, whole.signature, often.signature, rare.signature,
-                                          other.signature, large.signature});
+                                          large.signature, other.signature});
 }
 
 TEST_CASE(
@@ -999,7 +1004,7 @@ TEST_CASE(
   };
   CHECK(problems_with(0).empty());
   CHECK(problems_with(1) == std::vector<std::string>{shorter.signature});
-  const std::string page = ReadText(scratch / "out/index.html");
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "Files: left out of this report."));
   CHECK(Has(page, "stiction problem STORE 0 "));
   CHECK(problems_with(2) == std::vector<std::string>{longer.signature, shorter.signature});
@@ -1051,8 +1056,7 @@ TEST_CASE("report: cycles of safe problems and disagreements of methods outrank 
   Store store(scratch / "s", kIdentity);
   store.AddUnit({}, 0, record, findings);
   WriteReport(store, scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "<strong>3</strong> <span>of these grave"));
   CHECK(page.find(">safe-cycle<") < page.find(">disagreement-of-methods<"));
   CHECK(page.find(">disagreement-of-methods<") < page.find(">cycle<"));
@@ -1061,7 +1065,7 @@ TEST_CASE("report: cycles of safe problems and disagreements of methods outrank 
 TEST_CASE("report: the page says what is known of existence and agreement") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  const std::string page = ReadText(scratch / "out/index.html");
+  const std::string page = PagesOf(scratch / "out");
   const Record record = SampleByContacts();
   const auto sum = [&record](auto member) {
     return record.agreement.at(2).*member + record.agreement.at(3).*member;
@@ -1090,12 +1094,14 @@ std::vector<Row> RowsWhere(const fs::path& report, const std::string& figure, co
 TEST_CASE("figures: the page draws what their files say, to the digit") {
   const Scratch scratch;
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
-  const Json figures = DataOf(ReadText(scratch / "out/index.html"))["figures"];
+  Json figures = DataOf(ReadText(scratch / "out/index.html"))["figures"];
+  CHECK(figures.size() == 3);
+  figures.update(DataOf(ReadText(scratch / "out/results.html"))["figures"]);
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(scratch / "out/figures"))
     files.insert(entry.path().stem().string());
   REQUIRE(files.size() == figures.size());
-  REQUIRE(files.size() == 8);
+  REQUIRE(files.size() == 10);
   for (const auto& [name, figure] : figures.items()) {
     INFO(name);
     const auto lines = ParseCsv(ReadText(scratch / ("out/figures/" + name + ".csv")));
@@ -1243,13 +1249,12 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
   for (const Row& row : ReadTable(scratch / "out/since.csv")) changes[row.at("signature")] = row.at("change");
   CHECK(changes ==
         std::map<std::string, std::string>{{kDone, "finished"}, {kCounted, "new"}, {"cycle-gone", "gone"}});
-  const std::string page = ReadText(scratch / "out/index.html");
-  RequireWellFormed(page);
+  const std::string page = PagesOf(scratch / "out");
   CHECK(Has(
       page,
       "Since the earlier report: 1 new, 1 finished that were not, and 0 met more often, of 3 groups; it had "
       "3. 1 of those are not here"));
-  const Json findings = DataOf(page)["findings"];
+  const Json findings = DataOf(ReadText(scratch / "out/findings.html"))["findings"];
   for (const Json& finding : findings)
     CHECK(finding["change"] == (finding["signature"] == kDone ? "finished" : ""));
   CHECK(Has(page, "<span class=\"badge change\">finished</span>"));
@@ -1262,7 +1267,7 @@ TEST_CASE("since: the page, its data and since.csv say what is new, finished, me
   CHECK(rows[0].at("change") == "more");
   CHECK(rows[0].at("count_before") == "1234");
   CHECK(rows[0].at("count") == "2468");
-  CHECK_FALSE(Has(ReadText(scratch / "earlier/index.html"), "Since the earlier report"));
+  CHECK_FALSE(Has(PagesOf(scratch / "earlier"), "Since the earlier report"));
 }
 
 TEST_CASE("since: what is no findings.csv is refused by its place") {

@@ -5,8 +5,7 @@ import {dot, ruleX, ruleY} from '@observablehq/plot';
 import * as p from './plots.js';
 
 const sides = ['a', 'b'], names = ['A', 'B'];
-const key = p.legend(names.map((name, i) => [name, `c${i + 1}`]));
-const legend = () => key.cloneNode(true);
+const key = names.map((name, i) => [name, `c${i + 1}`]);
 
 // Method and arithmetic are named where they are not as usual.
 const place = row => [p.contactsOf(Number(row.contacts)), row.method === 'baraff' ? '' : row.method,
@@ -45,13 +44,13 @@ function ratePlot(generator, lines, width, domain) {
       p.drawn(
           {
             width,
-            height: places.length * 34 + 46,
+            height: places.length * 34 + 60,
             marginLeft: Math.min(width * 0.4, 16 + 6.5 * longest),
-            marginTop: 6,
+            marginTop: 20,
             marginBottom: 36,
-            marginRight: 22,
-            x: {type: 'log', domain, label: 'in a million', clamp: true},
-            y: {type: 'band', domain: places, label: null},
+            marginRight: 26,
+            x: {type: 'log', domain, label: 'in a million runs', clamp: true},
+            y: {type: 'band', domain: places, label: 'contacts'},
             marks: [
               p.lines('x', 60), p.xAxis({tickFormat: p.shortNumber, tickSpacing: 60}),
               p.yAxis({tickFormat: name => name}),
@@ -69,9 +68,11 @@ function drawRates(rows, width, {policy, measure}) {
   const ends = lines.flatMap(line => line.count > 0 ? [line.low, line.high] : [line.high]);
   // A line that reaches down to nothing still has room.
   const domain = [10 ** Math.floor(Math.log10(Math.min(...ends) / 1.5)), Math.max(...ends) * 1.1];
-  const plots = [...p.groupBy(lines, line => line.generator)].map(
-      ([generator, mine]) => ratePlot(generator, mine, p.columnWidth(width, 360), domain));
-  return [legend(), p.grid(plots)];
+  const groups = [...p.groupBy(lines, line => line.generator)];
+  return p.withLegend(width, key, across => {
+    const widths = p.widths(across, 360, groups.length);
+    return p.grid(groups.map(([generator, mine], i) => ratePlot(generator, mine, widths[i], domain)));
+  });
 }
 
 // Steps have a figure of their own.
@@ -102,13 +103,13 @@ function stepsPlot(rows, width, {most, floor}) {
       p.drawn(
           {
             width,
-            height: 180,
+            height: 194,
             marginLeft: 54,
-            marginTop: 8,
-            marginBottom: 32,
-            marginRight: 10,
+            marginTop: 22,
+            marginBottom: 34,
+            marginRight: 16,
             x: {domain: [-0.5, most + 1], label: 'steps'},
-            y: {type: 'log', domain: [floor, 1], label: null},
+            y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
             marks: [
               p.lines('y', 32), p.yAxis({tickSpacing: 32, tickFormat: p.shareOfTen}), p.xAxis({tickSpacing: 45}),
               ...sides.map(bars)
@@ -132,7 +133,10 @@ function drawSteps(rows, width, {policy}) {
     most: Math.max(...groups.flat().map(row => Number(row.steps))),
     floor: 0.7 * 10 ** Math.floor(Math.log10(Math.min(...shares)))
   };
-  return [legend(), p.grid(groups.map(group => stepsPlot(group, p.columnWidth(width, 300), options)))];
+  return p.withLegend(width, key, across => {
+    const widths = p.widths(across, 300, groups.length);
+    return p.grid(groups.map((group, i) => stepsPlot(group, widths[i], options)));
+  });
 }
 
 export const compared = {

@@ -2,7 +2,7 @@
 // The force of a contact in its friction cone. In the plane: fF to the right, fN up, and the way that the force
 // has taken. In space: the disc of friction forces that fN allows, seen along the normal.
 import {element, svgElement} from './dom.js';
-import {compareWithLimit, spoken, toDouble} from './numbers.js';
+import {compareWithLimit, roundBelow, short, spoken, toDouble} from './numbers.js';
 
 const kWidth = 260, kHeight = 200, kMargin = 22;
 const round = x => Math.round(100 * x) / 100;
@@ -65,6 +65,21 @@ function arrow(from, to, style) {
 }
 export const forceArrow = arrow;
 
+// A mark at a round number of newtons on an axis, `at(newtons)`, of so many; it leaves room for the axis' name.
+function newtonsAt(at, most) {
+  const value = roundBelow(0.7 * most), [x, y] = at(value).map(round), isAcross = y === round(at(0)[1]);
+  return [
+    svgElement('line', {
+      class: 'mark',
+      x1: x - (isAcross ? 0 : 3),
+      x2: x + (isAcross ? 0 : 3),
+      y1: y - (isAcross ? 3 : 0),
+      y2: y + (isAcross ? 3 : 0)
+    }),
+    svgElement('text', isAcross ? {x, y: y + 14, 'text-anchor': 'middle'} : {x: x + 6, y: y + 4}, short(value))
+  ];
+}
+
 class ConeInPlane {
   constructor(runs, layout, [leastAcross = 0, leastUp = 0] = []) {
     this.layout = layout;
@@ -113,8 +128,10 @@ class ConeInPlane {
     return [
       svgElement(
           'text', {x: kWidth - 4, y: round(apex[1]) - 5, 'text-anchor': 'end'},
-          this.layout.rows > 1 ? 'fF' : ''),
-      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'fN'),
+          this.layout.rows > 1 ? 'fF, N' : ''),
+      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'fN, N'),
+      ...this.layout.rows > 1 ? newtonsAt(x => this.at([x, 0]), kWidth / 2 / this.across) : [],
+      ...newtonsAt(x => this.at([0, x]), kHeight / this.up),
     ];
   }
 }
@@ -157,8 +174,8 @@ class DiscInSpace {
   }
   labels() {
     return [
-      svgElement('text', {x: kWidth - 4, y: kHeight / 2 - 5, 'text-anchor': 'end'}, 'x'),
-      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'y')
+      svgElement('text', {x: kWidth - 4, y: kHeight / 2 - 5, 'text-anchor': 'end'}, 'x, N'),
+      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'y, N'), ...newtonsAt(x => this.at(x, 0), kWidth / 2 / this.scale)
     ];
   }
 }

@@ -132,23 +132,23 @@ export function encoded(problem, policy) {
 const isText = x => typeof x === 'string';
 const isTexts = list => Array.isArray(list) && list.every(isText);
 
-// {problem, policy} of such letters, of any texts; null for what has not their form and sizes.
+// {name, problem, policy} of such letters, the name empty of what was edited, of any texts; null for what has not their form and sizes.
 export function decoded(letters) {
   try {
     const plain = atob(letters.replace(/-/g, '+').replace(/_/g, '/'));
     const bytes = Uint8Array.from(plain, letter => letter.charCodeAt(0));
     // An address that tells no dimension is of a problem in the plane.
-    const {dimension = 2, contacts, A, b, policy} = JSON.parse(new TextDecoder().decode(bytes));
+    const {name = '', dimension = 2, contacts, A, b, policy} = JSON.parse(new TextDecoder().decode(bytes));
     if (dimension !== 2 && dimension !== 3) return null;
     const isSlip = slip => slip === undefined ||
         (dimension === 3 ? isTexts(slip) && slip.length === 2 : isText(slip));
     const isContact = contact => contact !== null && typeof contact === 'object' && isText(contact.kind) &&
         isText(contact.mu ?? '') && isSlip(contact.slip);
-    if (!Array.isArray(contacts) || !contacts.every(isContact) || !isText(policy)) return null;
+    if (!Array.isArray(contacts) || !contacts.every(isContact) || !isText(policy) || !isText(name)) return null;
     const rows = contacts.reduce((sum, {kind}) => sum + rowsOf(kind, dimension), 0);
     const has = list => isTexts(list) && list.length === rows;
     const fits = has(b) && Array.isArray(A) && A.length === rows && A.every(has);
-    return fits ? {problem: {dimension, contacts, A, b}, policy} : null;
+    return fits ? {name, problem: {dimension, contacts, A, b}, policy} : null;
   } catch {
     return null;
   }

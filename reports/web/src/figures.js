@@ -4,7 +4,7 @@
 import {barX, dot, ruleX, ruleY} from '@observablehq/plot';
 
 import * as p from './plots.js';
-import {rates} from './rates.js';
+import {drawOften, rates} from './rates.js';
 
 const outcomes = ['solved', 'cycle', 'stall', 'ray', 'singular', 'limit', 'undecided'];
 const byPolicy = rows => ({policy: p.unique(rows.map(row => row.policy))});
@@ -24,16 +24,21 @@ function drawDoubles(rows, width, {policy}) {
     insetRight: 1,
     title: row => `${name(row.in_doubles)} in doubles, exactly ${row.exact}: ${p.count(row.runs)} runs`
   };
-  const svg = p.drawn(
+  const drawn = across => p.drawn(
       {
-        width,
-        height: totals.size * 34 + 50,
-        marginLeft: Math.min(190, width * 0.4),
-        marginRight: 22,
-        marginTop: 6,
+        width: across,
+        height: totals.size * 34 + 64,
+        marginLeft: Math.min(190, across * 0.4),
+        marginRight: 26,
+        marginTop: 20,
         marginBottom: 36,
-        x: {domain: [0, 1], label: 'share of the suspicious runs'},
-        y: {type: 'band', domain: outcomes.filter(outcome => totals.has(outcome)), label: null, padding: 0.2},
+        x: {domain: [0, 1], label: 'share of the suspicious runs, %'},
+        y: {
+          type: 'band',
+          domain: outcomes.filter(outcome => totals.has(outcome)),
+          label: 'said by doubles (runs)',
+          padding: 0.2
+        },
         marks: [
           p.xAxis({tickFormat: p.share, tickSpacing: 70}),
           p.yAxis({tickFormat: outcome => `${name(outcome)} (${p.count(totals.get(outcome))})`}),
@@ -43,16 +48,19 @@ function drawDoubles(rows, width, {policy}) {
       'Suspicious runs in doubles and their exact outcome: ' +
           mine.map(row => `${name(row.in_doubles)} is ${row.exact}: ${p.count(row.runs)}`).join('; '));
   const present = outcomes.filter(outcome => mine.some(row => row.exact === outcome));
-  return [p.legend(present.map(outcome => [`exactly ${outcome}`, `o-${outcome}`])), svg];
+  return p.withLegend(width, present.map(outcome => [`exactly ${outcome}`, `o-${outcome}`]), drawn);
 }
 
 function drawTrust(rows, width) {
-  const plots = [...p.groupBy(rows, row => row.what)].map(
-      ([what, mine]) => p.small(
+  const groups = [...p.groupBy(rows, row => row.what)], widths = p.widths(width, 360, groups.length);
+  const plots = groups.map(
+      ([what, mine], i) => p.small(
           what,
           p.shareLines(mine, `${what}: ${mine.map(row => `${row.generator}: ${p.told(row)}`).join('; ')}`, {
-            width: p.columnWidth(width, 360),
+            width: widths[i],
             at: row => row.generator,
+            each: 'generator',
+            of: `share of ${what.startsWith('audited') ? 'the audited' : 'all'} runs, %`,
             left: 120,
             title: row => `${row.generator}: ${p.told(row)}`
           })));
@@ -66,11 +74,11 @@ const bars = (rows, x, floor, total, paint, width, title) => ruleX(
     rows, {x, y1: floor, y2: row => (row.runs ?? row.loops) / total, stroke: paint, strokeWidth: width, title});
 
 const histogram = {
-  height: 170,
+  height: 184,
   marginLeft: 54,
-  marginTop: 8,
-  marginBottom: 32,
-  marginRight: 10
+  marginTop: 22,
+  marginBottom: 34,
+  marginRight: 16
 };
 
 function medianOf(rows, total) {
@@ -88,7 +96,7 @@ function stepsPlot(rows, {width, most, floor}) {
         ...histogram,
         width,
         x: {domain: [-0.5, most + 1], label: 'steps'},
-        y: {type: 'log', domain: [floor, 1], label: null},
+        y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
         marks: [
           p.lines('y', 32), p.yAxis({tickSpacing: 32, tickFormat: p.shareOfTen}), p.xAxis({tickSpacing: 45}),
           bars(rows, 'steps', floor, total, 'var(--bar)', thick, title)
@@ -104,12 +112,11 @@ function drawSteps(rows, width, {policy}) {
   const groups = [...p.groupBy(rows.filter(row => row.policy === policy), row => row.contacts).values()];
   const least =
       Math.min(...groups.map(group => Math.min(...group.map(row => row.runs)) / p.sum(group, row => row.runs)));
-  const options = {
-    width: p.columnWidth(width, 250),
+  const widths = p.widths(width, 250, groups.length), options = {
     most: Math.max(...groups.map(group => group.at(-1).steps)),
     floor: 0.7 * 10 ** Math.floor(Math.log10(least))
   };
-  return [p.grid(groups.map(group => stepsPlot(group, options)))];
+  return [p.grid(groups.map((group, i) => stepsPlot(group, {...options, width: widths[i]})))];
 }
 
 function loopStepsPlot(rows, {width, most}) {
@@ -122,7 +129,7 @@ function loopStepsPlot(rows, {width, most}) {
             ...histogram,
             width,
             x: {domain: [-0.5, most + 0.5], label: 'steps of length zero in a period'},
-            y: {domain: [0, Math.max(...rows.map(row => row.loops)) / total], label: null},
+            y: {domain: [0, Math.max(...rows.map(row => row.loops)) / total], label: 'share of loops, %'},
             marks: [
               p.lines('y', 40), p.yAxis({tickSpacing: 40, tickFormat: p.share}),
               p.xAxis({tickSpacing: 40, tickFormat: x => Number.isInteger(x) ? `${x}` : ''}),
@@ -135,9 +142,9 @@ function loopStepsPlot(rows, {width, most}) {
 }
 
 function drawLoopSteps(rows, width) {
-  const options = {width: p.columnWidth(width, 250), most: Math.max(...rows.map(row => row.zero_steps))};
-  return [p.grid(
-      [...p.groupBy(rows, row => row.contacts).values()].map(group => loopStepsPlot(group, options)))];
+  const groups = [...p.groupBy(rows, row => row.contacts).values()], widths = p.widths(width, 250, groups.length);
+  const most = Math.max(...rows.map(row => row.zero_steps));
+  return [p.grid(groups.map((group, i) => loopStepsPlot(group, {width: widths[i], most})))];
 }
 
 function pivotingPlot(generator, rows, whats, {width, values, most}) {
@@ -152,7 +159,7 @@ function pivotingPlot(generator, rows, whats, {width, values, most}) {
             ...histogram,
             width,
             x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
-            y: {domain: [0, most], label: null},
+            y: {domain: [0, most], label: 'share of runs, %'},
             marks: [
               p.lines('y', 40), p.yAxis({tickSpacing: 40, tickFormat: p.share}), p.xAxis(),
               ...whats.flatMap(series)
@@ -164,14 +171,86 @@ function pivotingPlot(generator, rows, whats, {width, values, most}) {
 
 function drawPivoting(rows, width, {policy}) {
   const mine = rows.filter(row => row.policy === policy), whats = p.unique(mine.map(row => row.what));
-  const options = {
-    width: p.columnWidth(width, 250),
+  const groups = [...p.groupBy(mine, row => row.generator)], options = {
     values: p.ascending(p.unique(mine.map(row => row.contacts))),
     most: Math.max(...mine.map(row => row.high))
   };
-  const plots = [...p.groupBy(mine, row => row.generator)].map(
-      ([generator, group]) => pivotingPlot(generator, group, whats, options));
-  return [p.legend(whats.map((what, i) => [what, `c${i + 1}`])), p.grid(plots)];
+  return p.withLegend(width, whats.map((what, i) => [what, `c${i + 1}`]), across => {
+    const widths = p.widths(across, 250, groups.length);
+    return p.grid(groups.map(
+        ([generator, group], i) => pivotingPlot(generator, group, whats, {...options, width: widths[i]})));
+  });
+}
+
+const within = [['median', 'half of the runs'], ['of_99_percent', '99 of 100 runs'], ['most', 'all runs']];
+const shared = [['zero', 'a step of length zero', 'zero_steps'], ['give_up', 'a variable given up', 'give_ups']];
+
+// Steps, on a logarithmic scale: as many as half of the runs, 99 of 100, and all take at most.
+function withinPlot(rows, values, width) {
+  const told = ([key, name]) => row =>
+      `${p.contactsOf(row.contacts)}, ${name}: at most ${p.count(row[key])} steps; ${p.count(row.runs)} runs`;
+  return p.small(
+      'Steps of a run, at most',
+      p.drawn(
+          {
+            ...histogram,
+            width,
+            height: 250,
+            x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
+            y: {type: 'log', domain: [0.9, 1.2 * Math.max(...rows.map(row => row.most))], label: 'steps', clamp: true},
+            marks: [
+              p.lines('y', 34), p.yAxis({tickSpacing: 34, tickFormat: p.shortNumber}), p.xAxis(),
+              ...within.map((each, i) => dot(rows, {
+                              x: 'contacts',
+                              y: row => Math.max(0.9, row[each[0]]),
+                              r: 4,
+                              symbol: p.symbols[i],
+                              fill: p.colours[i],
+                              title: told(each)
+                            }))
+            ]
+          },
+          `Steps of a run: ${rows.map(row => within.map(each => told(each)(row)).join('; ')).join('; ')}`));
+}
+
+function sharedPlot(rows, values, width) {
+  const lines = shared.map(
+      ([key, what, count]) => rows.map(row => ({
+                                         contacts: row.contacts,
+                                         what,
+                                         share: row[`${key}_share`],
+                                         low: row[`${key}_low`],
+                                         high: row[`${key}_high`],
+                                         count: row[count],
+                                         of: row.runs
+                                       })));
+  const title = row => `${p.contactsOf(row.contacts)}, ${row.what}: ${p.told(row)}`;
+  return p.small(
+      'Runs with',
+      p.drawn(
+          {
+            ...histogram,
+            width,
+            height: 250,
+            x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
+            y: {domain: [0, 1.05 * Math.max(...lines.flat().map(row => row.high))], label: 'share of runs, %'},
+            marks: [
+              p.lines('y', 34), p.yAxis({tickSpacing: 34, tickFormat: p.share}), p.xAxis(),
+              ...lines.flatMap(
+                  (group, i) =>
+                      p.shares(group, {at: 'contacts', series: i + within.length, shift: p.aside(i, 2, 7), title}))
+            ]
+          },
+          `Shares of runs: ${lines.flat().map(title).join('; ')}`));
+}
+
+function drawCost(rows, width, {policy}) {
+  const mine = rows.filter(row => row.policy === policy), values = p.ascending(p.unique(mine.map(row => row.contacts)));
+  const key = [...within, ...shared].map(([, name], i) => [name, `c${i + 1}`]);
+  return p.withLegend(width, key, across => {
+    const widths = p.widths(across, 220, 2);
+    return p.grid([withinPlot(mine, values, widths[0]), sharedPlot(mine, values, widths[1])]);
+  });
 }
 
 // ---- Methods ----
@@ -179,25 +258,37 @@ function drawPivoting(rows, width, {policy}) {
 function drawDriving(rows, width) {
   const whats = p.unique(rows.map(row => row.what));
   const title = row => `${p.contactsOf(row.contacts)}, with ${row.what}: ${p.told(row)}`;
-  const svg = p.shareLines(rows, `Share of the paths of complete driving: ${rows.map(title).join('; ')}`, {
-    width: Math.min(width, 760),
-    at: row => p.contactsOf(row.contacts),
-    series: row => row.what,
-    left: 84,
-    height: 34,
-    title
-  });
-  return [p.legend(whats.map((what, i) => [`with ${what}`, `c${i + 1}`])), svg];
+  const drawn = across =>
+      p.shareLines(rows, `Share of the paths of complete driving: ${rows.map(title).join('; ')}`, {
+        width: across,
+        at: row => p.contactsOf(row.contacts),
+        series: row => row.what,
+        each: 'contacts',
+        of: 'share of the paths, %',
+        left: 84,
+        height: 34,
+        title
+      });
+  return p.withLegend(width, whats.map((what, i) => [`with ${what}`, `c${i + 1}`]), drawn);
 }
 
 function drawMethods(rows, width) {
   const title = row => `${p.contactsOf(row.contacts)}: ${p.told(row)}`;
-  const plots = [...p.groupBy(rows, row => `${row.method}: ${row.asked_about}`)].map(
-      ([name, group]) => p.small(
+  const groups = [...p.groupBy(rows, row => `${row.method}: ${row.asked_about}`)],
+        widths = p.widths(width, 330, groups.length);
+  const plots = groups.map(
+      ([name, group], i) => p.small(
           name,
           p.shareLines(
               group, `${name}, share solved: ${group.map(title).join('; ')}`,
-              {width: p.columnWidth(width, 330), at: row => p.contactsOf(row.contacts), left: 84, title})));
+              {
+                width: widths[i],
+                at: row => p.contactsOf(row.contacts),
+                each: 'contacts',
+                of: 'share of those asked, %',
+                left: 84,
+                title
+              })));
   return [p.grid(plots)];
 }
 
@@ -220,9 +311,9 @@ function rungsPlot(family, rows, {width, domain, most}) {
           {
             ...histogram,
             width,
-            height: 220,
-            x: {type: 'log', domain, label: 'microseconds'},
-            y: {domain: [0, most], label: null},
+            height: 234,
+            x: {type: 'log', domain, label: 'microseconds a problem'},
+            y: {domain: [0, most], label: 'wrong or undecided, %'},
             marks: [
               p.lines('y', 45), p.yAxis({tickSpacing: 45, tickFormat: p.share}),
               p.xAxis({tickFormat: p.shortNumber}), dot(rows, mark)
@@ -233,13 +324,12 @@ function rungsPlot(family, rows, {width, domain, most}) {
 
 function drawRungs(rows, width) {
   const times = rows.map(row => Math.max(row.microseconds, 1e-3));
+  const groups = [...p.groupBy(rows, row => row.family)], widths = p.widths(width, 330, groups.length);
   const options = {
-    width: p.columnWidth(width, 330),
     domain: [Math.min(...times) / 1.3, Math.max(...times) * 1.3],
     most: Math.max(0.01, ...rows.map(row => row.lost))
   };
-  return [p.grid(
-      [...p.groupBy(rows, row => row.family)].map(([family, group]) => rungsPlot(family, group, options)))];
+  return [p.grid(groups.map(([family, group], i) => rungsPlot(family, group, {...options, width: widths[i]})))];
 }
 
 // ---- Records ----
@@ -269,13 +359,17 @@ function frontierPlot(objective, rows, width) {
       p.drawn(
           {
             width,
-            height: rows.length * 26 + 46,
+            height: rows.length * 26 + 60,
             marginLeft: Math.min(150, width * 0.42),
-            marginTop: 6,
+            marginTop: 20,
             marginBottom: 36,
-            marginRight: 22,
-            x: {type: scale, domain, label: rows[0].worse === 'lower' ? 'worse the lower' : 'worse the higher'},
-            y: {type: 'band', domain: rows.map(name), label: null},
+            marginRight: 26,
+            x: {
+              type: scale,
+              domain,
+              label: `${objective.replaceAll('-', ' ')}, worse the ${rows[0].worse}`
+            },
+            y: {type: 'band', domain: rows.map(name), label: 'record'},
             marks: [
               p.lines('x', 60), p.xAxis({
                 ...span[1] > 1e4 * span[0] ? {ticks: thousandfold(domain)} : {tickSpacing: 60},
@@ -290,12 +384,13 @@ function frontierPlot(objective, rows, width) {
 }
 
 function drawFrontiers(rows, width) {
-  const column = p.columnWidth(width, 330);
-  return [p.grid([...p.groupBy(rows, row => row.objective)].map(
-      ([objective, group]) => frontierPlot(objective, group, column)))];
+  const groups = [...p.groupBy(rows, row => row.objective)], widths = p.widths(width, 330, groups.length);
+  return [p.grid(groups.map(([objective, group], i) => frontierPlot(objective, group, widths[i])))];
 }
 
 export const figures = {
+  'often': {choices: byPolicy, draw: drawOften},
+  'cost': {choices: byPolicy, draw: drawCost},
   'rates.contacts': rates('contacts'),
   'rates.friction': rates('friction'),
   'rates.rank': rates('rank'),

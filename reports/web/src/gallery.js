@@ -2,6 +2,7 @@
 // The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are
 // taken as they stand, with their pictures; the others are made of the data.
 import {byId, element} from './dom.js';
+import {addressOf, nameOfFinding} from './names.js';
 
 const pageSize = 50;
 const count = x => x.toLocaleString('en');
@@ -24,7 +25,7 @@ const unique = values => [...new Set(values)].sort();
 
 // ---- One finding ----
 
-const small = text => element('small', {}, text);
+const small = content => element('small', {}, content);
 const cell = (style, ...content) => element('td', {class: style}, ...content);
 
 function badges(finding) {
@@ -40,13 +41,21 @@ function sizeOf(finding) {
   return element('span', {class: 'soft'}, finding.state === 'pending' ? 'pending' : '–');
 }
 
+let plays = 0;  // the dimension of the player's problems
+
+// What happens, as a link that plays it, above the signature.
+function headOf(finding) {
+  const href = addressOf(finding, plays), name = nameOfFinding(finding);
+  return [href === null ? name : element('a', {href}, name), small(element('code', {}, finding.signature))];
+}
+
 function row(finding) {
   const words = finding.words === undefined ?
       null :
       small(`${finding.words_exact ? '' : 'about '}${counted(finding.words, 'word')}`);
   return element(
       'tr', {class: 'finding'},
-      element('th', {scope: 'row', class: 'signature'}, element('code', {}, finding.signature)),
+      element('th', {scope: 'row', class: 'signature'}, ...headOf(finding)),
       cell(null, ...badges(finding)),
       cell(
           null,
@@ -101,8 +110,10 @@ class Gallery {
     this.body = table.tBodies[0];
     this.rows = new Map();
     const written = [...this.body.rows];
-    for (let i = 0; i + 1 < written.length; i += 2)
+    for (let i = 0; i + 1 < written.length; i += 2) {
+      written[i].cells[0].replaceChildren(...headOf(findings[i / 2]));
       this.rows.set(findings[i / 2].signature, [written[i], written[i + 1]]);
+    }
     this.sorted = null;
     this.down = false;
     this.first = 0;
@@ -218,13 +229,15 @@ class Gallery {
 
 // What a search looks through.
 const textOf =
-    finding => [finding.signature, finding.kind, finding.generator, finding.policy, finding.state,
+    finding => [finding.signature, nameOfFinding(finding), finding.kind, finding.generator, finding.policy, finding.state,
                 finding.change, finding.grid, finding.minimized_grid, finding.whole ? 'whole grid' : '']
                    .filter(Boolean)
                    .join(' ')
                    .toLowerCase();
 
-export function showGallery(findings) {
+// `played`: the dimension of problems that a page plays; 0: there is none.
+export function showGallery(findings, played) {
+  plays = played;
   const place = byId('gallery');
   if (place === null) return;
   const table = document.querySelector('#findings > .scroll > table');

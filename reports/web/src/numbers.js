@@ -2,7 +2,8 @@
 // Numbers of the data: exact ones are strings, "-3/4"; others are doubles.
 import {element, mathElement} from './dom.js';
 
-const kMostDigits = 9;  // of a fraction that is set as one
+const kDigits = 4;       // that are shown, of what has more
+const kMostDigits = 6;   // of a whole number that is shown in full
 
 // [numerator, denominator] of an exact number.
 function parts(exact) {
@@ -35,14 +36,25 @@ export function compareWithLimit(x, m, y) {
 
 export function short(x) {
   const value = toDouble(x);
-  return Number(value.toPrecision(5)).toString().replaceAll('-', '−');
+  return Number(value.toPrecision(kDigits)).toString().replaceAll('-', '−');
 }
 
-// "-3/4" as it is read: "−3/4".
-export const spoken = x => (typeof x === 'number' ? short(x) : x).replace('-', '−');
+// The largest of 1, 2, 5, 10, ... up to x.
+export function roundBelow(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return power * [5, 2, 1].find(factor => factor * power <= x);
+}
 
-function set(x) {
-  const text = typeof x === 'number' ? short(x) : x;
+// Whether all of it is shown.
+function isShort(x) {
+  if (typeof x === 'number') return Number(x.toPrecision(kDigits)) === x;
+  return x.includes('/') ? x.replace(/[-/]/g, '').length <= kDigits : x.replace('-', '').length <= kMostDigits;
+}
+
+// "-3/4" as it is read: "−3/4"; in few digits where it is long.
+export const spoken = x => (typeof x === 'number' || !isShort(x) ? short(x) : x).replace('-', '−');
+
+function set(text) {
   const minus = /^[-−]/.test(text), [p, q] = text.replace(/^[-−]/, '').split('/');
   const size = q === undefined ? mathElement('mn', {}, p) :
                                  mathElement('mfrac', {}, mathElement('mn', {}, p), mathElement('mn', {}, q));
@@ -50,10 +62,12 @@ function set(x) {
   return mathElement('math', {displaystyle: 'true'}, mathElement('mrow', {}, sign, size));
 }
 
-// A number as an element: a fraction; a long one on a line, with its size.
+// A number as an element: exact where it is short, otherwise rounded, and exact where one points at it or asks for
+// all digits (player.js).
 export function number(x) {
-  const long = typeof x === 'string' && x.split('/').some(part => part.length > kMostDigits);
-  if (!long) return element('data', {value: String(x)}, set(x));
+  if (isShort(x)) return element('data', {value: String(x)}, set(typeof x === 'number' ? short(x) : x));
+  const exact = String(x).replaceAll('-', '−');
   return element(
-      'data', {value: x, class: 'long'}, x.replace('-', '−'), element('small', {}, ` ≈ ${short(x)}`));
+      'data', {value: String(x), title: exact}, element('span', {class: 'near'}, set(short(x))),
+      element('span', {class: 'exact'}, exact));
 }

@@ -2,7 +2,7 @@
 // The scene, with the forces of the contacts.
 import {forceArrow, layoutOf} from './cones.js';
 import {element, svgElement} from './dom.js';
-import {toDouble} from './numbers.js';
+import {roundBelow, short, toDouble} from './numbers.js';
 
 const kLongest = 0.24;  // arrow, of the picture's height
 
@@ -25,6 +25,29 @@ export class Picture {
     }
     this.newton = largest === 0 ? 1 : kLongest * Number(this.svg.getAttribute('height')) / largest;
     this.node = frame;
+    this.ground = [...this.scaleOf(largest), ...this.gravityOf(data.picture.gravity)];
+  }
+
+  // An arrow of a round number of newtons.
+  scaleOf(largest) {
+    if (largest === 0) return [];
+    const value = roundBelow(0.6 * largest), x = 14, y = Number(this.svg.getAttribute('height')) - 16;
+    return [
+      forceArrow([x, y], [x + this.newton * value, y], 'scale'),
+      svgElement('text', {class: 'scale', x: x + this.newton * value + 8, y: y + 5}, `${short(value)} N`)
+    ];
+  }
+
+  // The way of gravity, of which nothing is told where it is none.
+  gravityOf(gravity) {
+    const size = Math.hypot(...gravity ?? [0, 0]), kArrow = 46;
+    if (size === 0) return [];
+    const from = [Number(this.svg.getAttribute('width')) - 34, 34 - Math.min(0, gravity[1] / size * kArrow)];
+    const to = gravity.map((g, i) => from[i] + g / size * kArrow);
+    return [
+      forceArrow(from, to, 'scale'),
+      svgElement('text', {class: 'scale', x: from[0] - 10, y: from[1] + 16, 'text-anchor': 'end'}, 'g')
+    ];
   }
 
   // Of a contact, in the plane of the picture.
@@ -39,7 +62,7 @@ export class Picture {
   }
 
   show(states) {
-    const marks = [];
+    const marks = [...this.ground];
     for (let r = this.runs.length - 1; r >= 0; --r) {
       this.places.forEach(({at}, i) => {
         const [x, y] = this.forceOf(this.runs[r], states[r], i);

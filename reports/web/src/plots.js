@@ -55,7 +55,7 @@ export function groupBy(rows, key) {
 // ---- Plots ----
 
 export const xAxis = options => axisX({tickSize: 0, labelArrow: 'none', labelAnchor: 'center', ...options});
-export const yAxis = options => axisY({tickSize: 0, ...options});
+export const yAxis = options => axisY({tickSize: 0, labelArrow: 'none', labelAnchor: 'top', ...options});
 export const lines = (axis, tickSpacing) =>
     (axis === 'x' ? gridX : gridY)({stroke: 'var(--line)', strokeOpacity: 1, tickSpacing});
 
@@ -72,15 +72,23 @@ export const small = (title, svg) =>
     element('div', {class: 'small'}, element('p', {class: 'title'}, title), svg);
 export const grid = parts => element('div', {class: 'smalls'}, ...parts);
 
-// How wide these are: as many beside each other as there is room for.
-export function columnWidth(width, least) {
-  const gap = 16, many = Math.max(1, Math.floor((width + gap) / (least + gap)));
-  return Math.floor((width - gap * (many - 1)) / many);
+// How wide each of so many is: as many beside each other as there is room for, and every row filled.
+export function widths(width, least, count) {
+  const gap = 16, most = Math.max(1, Math.floor((width + gap) / (least + gap))), rows = Math.ceil(count / most);
+  return Array.from({length: rows}, (_, row) => Math.floor((count + rows - 1 - row) / rows))
+      .flatMap(many => Array(many).fill(Math.floor((width - gap * (many - 1)) / many)));
 }
 
 // Texts with the class that has their colour.
-export const legend = entries =>
+const legend = entries =>
     element('ul', {class: 'legend'}, ...entries.map(([text, style]) => element('li', {class: style}, text)));
+
+// `draw(width)`, an element, with its legend beside it where there is room, otherwise above.
+export function withLegend(width, entries, draw) {
+  const kLegend = 160;
+  if (width < 560) return [legend(entries), draw(width)];
+  return [element('div', {class: 'with-legend'}, draw(width - kLegend), legend(entries))];
+}
 
 // Marks of shares with their intervals: upwards, or (`across`) from left to right. `shift` in pixels, aside.
 export function shares(rows, {at, series, shift, title, across = false}) {
@@ -102,19 +110,21 @@ export function shares(rows, {at, series, shift, title, across = false}) {
 export const aside = (i, many, distance) => (i - (many - 1) / 2) * distance;
 
 // Shares from left to right, a line for each `at(row)`, in the colours of `series(row)`.
-export function shareLines(rows, label, {width, at, series = () => 0, title, left, height = 22}) {
+// `each`: what `at` names; `of`: what the shares are of.
+export function shareLines(
+    rows, label, {width, at, series = () => 0, title, left, height = 22, each, of = 'share of those asked'}) {
   const groups = [...groupBy(rows, series).values()], places = unique(rows.map(at));
   const most = Math.min(1, 1.02 * Math.max(...rows.map(row => row.high)));
   return drawn(
       {
         width,
-        height: places.length * height + 46,
+        height: places.length * height + 60,
         marginLeft: left,
-        marginTop: 6,
+        marginTop: 20,
         marginBottom: 36,
-        marginRight: 22,
-        x: {domain: [0, most], label: 'share of those asked'},
-        y: {type: 'band', domain: places, label: null},
+        marginRight: 26,
+        x: {domain: [0, most], label: of},
+        y: {type: 'band', domain: places, label: each},
         marks: [
           lines('x', 70), xAxis({tickFormat: share, tickSpacing: 70}), yAxis({tickFormat: name => name}),
           ...groups.flatMap(

@@ -18,6 +18,48 @@ const numberOf = text => {
   return Number.isNaN(above) ? Infinity : above / below;
 };
 
+// Of all generators together: a plot for each number of contacts, by friction coefficient.
+function oftenPlot(rows, {width, domain, values}) {
+  const told = row => `μ = ${row.friction}, ${p.contactsOf(row.contacts)}: ${p.count(row.loops)} of ${
+      p.count(row.runs)} runs, ${p.withInterval(row.rate, row.low, row.high)} in a million`;
+  const series = rows[0].contacts - 1, some = rows.filter(row => row.loops > 0), none = rows.filter(row => row.loops === 0);
+  const stroke = 'var(--loop)', line = {x: 'friction', y2: 'high', stroke, strokeWidth: 1.8};
+  return p.small(
+      p.contactsOf(rows[0].contacts),
+      p.drawn(
+          {
+            width,
+            height: 250,
+            marginLeft: 48,
+            marginBottom: 36,
+            marginTop: 24,
+            marginRight: 14,
+            x: {type: 'point', domain: values, label: 'friction coefficient μ', padding: 0.6},
+            y: {type: 'log', domain, label: 'loops in a million runs', clamp: true},
+            marks: [
+              p.lines('y', 34), p.yAxis({tickSpacing: 34, tickFormat: p.shortNumber}),
+              p.xAxis({ticks: fitting(values, width)}), ruleX(some, {y1: 'low', ...line}),
+              ruleX(none, {y1: domain[0], ...line, strokeOpacity: 0.6, strokeDasharray: '2,3'}),
+              dot(none, {x: 'friction', y: 'high', symbol: 'triangle', rotate: 180, r: 3.4, stroke, title: told}),
+              dot(some, {x: 'friction', y: 'rate', r: 4, fill: stroke, title: told})
+            ]
+          },
+          `${p.contactsOf(series + 1)}, loops in a million runs by friction coefficient: ${
+              some.map(row => `${row.friction}: ${p.rate(row.rate)}`).join('; ') || 'none seen'}`));
+}
+
+export function drawOften(rows, width, {policy}) {
+  const mine = rows.filter(row => row.policy === policy), groups = [...p.groupBy(mine, row => row.contacts).values()];
+  if (!mine.some(row => row.loops > 0)) return [];
+  const ends = mine.flatMap(row => row.loops > 0 ? [row.low, row.high] : [row.high]);
+  const options = {
+    domain: [10 ** Math.floor(Math.log10(Math.min(...ends))), Math.max(...ends) * 1.1],
+    values: p.unique(mine.map(row => row.friction)).sort((a, b) => numberOf(a) - numberOf(b)),
+  };
+  const widths = p.widths(width, 220, groups.length);
+  return [p.grid(groups.map((group, i) => oftenPlot(group, {...options, width: widths[i]})))];
+}
+
 const titleOf = by => row => `${row.generator}, ${p.contactsOf(row.contacts)}, ${names[by]} ${row.value}: ` +
     `${p.count(row.count)} of ${p.count(row.runs)} runs, ${p.withInterval(row.rate, row.low, row.high)} in a million`;
 
@@ -56,12 +98,12 @@ function ratePlot(rows, by, outcome, {width, domain, values, contacts}) {
   return p.drawn(
       {
         width,
-        height: 190,
+        height: 200,
         marginLeft: 48,
         marginBottom: 34,
-        marginTop: 10,
+        marginTop: 22,
         x: {type: 'point', domain: values, label: names[by], padding: 0.6},
-        y: {type: 'log', domain, label: null, clamp: true},
+        y: {type: 'log', domain, label: 'in a million runs', clamp: true},
         marks: [
           p.lines('y', 30), p.yAxis({tickSpacing: 30, tickFormat: p.shortNumber}),
           p.xAxis({ticks: fitting(values, width)}),
@@ -77,22 +119,27 @@ function draw(by, rows, width, {policy, outcome}) {
   const ends = all.flatMap(row => row.count > 0 ? [row.low, row.high] : [row.high]);
   if (!all.some(row => row.count > 0)) return [];
   const options = {
-    width: p.columnWidth(width, 250),
     domain: [10 ** Math.floor(Math.log10(Math.min(...ends))), Math.max(...ends) * 1.1],
     values: p.unique(all.map(row => row.value)).sort((a, b) => numberOf(a) - numberOf(b)),
     contacts: p.ascending(p.unique(all.filter(row => row.count > 0).map(row => row.contacts))),
   };
-  const plots = [], none = [];
+  const shown = [], none = [];
   for (const [generator, mine] of p.groupBy(all, row => row.generator)) {
-    const shown = by === 'contacts' ? mine : mine.filter(row => row.count > 0);
-    if (shown.length === 0)
+    const some = by === 'contacts' ? mine : mine.filter(row => row.count > 0);
+    if (some.length === 0)
       none.push(generator);
     else
-      plots.push(p.small(generator, ratePlot(shown, by, outcome, options)));
+      shown.push([generator, some]);
   }
   const key = options.contacts.map(n => [p.contactsOf(n), `c${(n - 1) % p.colours.length + 1}`]);
+  const plots = across => {
+    const widths = p.widths(across, 250, shown.length);
+    return p.grid(shown.map(
+        ([generator, some], i) =>
+            p.small(generator, ratePlot(some, by, outcome, {...options, width: widths[i]}))));
+  };
   return [
-    ...by === 'contacts' ? [] : [p.legend(key)], p.grid(plots),
+    ...by === 'contacts' ? [plots(width)] : p.withLegend(width, key, plots),
     ...none.length === 0 ? [] : [element('p', {class: 'note'}, `None seen: ${none.join(', ')}.`)]
   ];
 }

@@ -41,6 +41,13 @@ export function equation(data, run, state) {
   ].filter(Boolean);
 }
 
+const kMostRows = 8;  // of A, that stand open
+
+// What shows A, behind a fold where it is large.
+export const foldedIfLarge = (data, node) => data.rows.length <= kMostRows ?
+    node :
+    element('details', {class: 'folded'}, element('summary', {}, `A f + b = a, ${data.rows.length} rows`), node);
+
 // ---- The table -------------------------------------------------------------------------------
 
 function bar(x, largest, style) {

@@ -6,11 +6,12 @@ import {byId, element, icon} from './dom.js';
 import {decoded, Draft, encoded} from './draft.js';
 import {Editor} from './editor.js';
 import {Picture} from './picture.js';
-import {button, icons} from './player.js';
+import {loopOf, nameOfRun} from './names.js';
+import {button, copyLink, icons, showAllDigits} from './player.js';
 import {Run, whereTheyPart} from './run.js';
 import {tellReadings, tellStep} from './steps.js';
 import {Timeline} from './timeline.js';
-import {equation, Values} from './values.js';
+import {equation, foldedIfLarge, Values} from './values.js';
 
 const kTick = 1100;  // ms of a step that is played
 const kSwipe = 45;   // pixels
@@ -18,6 +19,7 @@ const kNarrow = 4;   // rows of A that leave room for a picture beside it
 
 const original = JSON.parse(byId('data').textContent);
 let data = null, runs = [], parting = null, cones = null, picture = null, panels = [];
+let cameAs = '';  // the name of a problem that came with the address
 const shown = {
   moment: 0,
   second: null,
@@ -53,6 +55,7 @@ async function followAddress() {
     if (found !== null && editor.isPossible && found.problem.dimension === original.problem.dimension) {
       editor.details.open = true;
       editor.take(new Draft(found.problem, found.policy));
+      cameAs = found.name;
       if (!await editor.run()) return;
     } else if (shown.problem !== '') {
       showOriginal();
@@ -118,7 +121,7 @@ const controls = {
     input: stop(() => go(Number(controls.slider.value)))
   }),
   place: element('span', {class: 'place'}),
-  link: element('a', {href: '#step-0', class: 'link', title: 'The address of this step'}, 'link'),
+  link: copyLink('step'),
 };
 
 const keys = {
@@ -126,6 +129,8 @@ const keys = {
   ArrowLeft: () => go(shown.moment - 1),
   Home: () => go(0),
   End: () => go(runs[0].last),
+  e: showAllDigits,
+  c: () => controls.link.click(),
 };
 
 function onKey(event) {
@@ -166,6 +171,15 @@ const howToStep = () =>
     [key('→'), ' or a swipe to the left goes on, ', key('Space'), ' plays; each dot above is a state.'];
 const howBeside = () => ['It keeps step with the first run; the arrows at its title move it alone.'];
 
+// A loop by the drives that recur, with what else is said of it.
+function endOf({replay: {outcome, start, period}, loop, end}) {
+  const loops = loop !== null && loop.exact ? loopOf(outcome, start, period) : null;
+  return loops === null ? end : `${loops}, for ever`;
+}
+
+const algebra = element(
+    'div', {id: 'equation', class: 'algebra scroll', tabindex: '0', role: 'group', 'aria-label': 'A f + b = a'});
+
 function panel(run, i) {
   const choose = i === 0 ? state => stop(() => go(state))() : state => stop(() => go(shown.moment, state))();
   const timeline = new Timeline(run, choose), values = new Values(data, run);
@@ -176,7 +190,7 @@ function panel(run, i) {
       button(icons.next, `${run.title}: forward`, () => by(1)));
   const node = element(
       'section', {class: `run run-${i}`, 'aria-label': run.title}, element('h2', {}, run.title),
-      element('p', {class: 'end'}, run.end), timeline.node,
+      element('p', {class: 'end'}, endOf(run)), timeline.node,
       element('div', {class: 'heading'}, heading, i === 0 ? null : buttons), story, values.node, readings);
   const link = (state, text) =>
       element('a', {href: `#step-${i === 0 ? state : `${shown.moment},${state}`}${tail()}`}, text);
@@ -197,7 +211,7 @@ function panel(run, i) {
 function draw() {
   const now = states(), round = runs[0].roundAt(shown.moment);
   panels.forEach((part, i) => part.show(now[i], i === 0 ? round : 0));
-  byId('equation').replaceChildren(...equation(data, runs[0], now[0]));
+  algebra.replaceChildren(...equation(data, runs[0], now[0]));
   cones.show(now);
   picture?.show(now);
   controls.slider.value = now[0];
@@ -221,11 +235,13 @@ function use(given) {
   picture = data.picture === null ? null : new Picture(data, runs);
   panels = runs.map((run, i) => panel(run, i));
   Object.assign(shown, {moment: 0, second: null});
-  byId('name').textContent = data.name;
+  byId('name').textContent = nameOfRun(data);
+  byId('file').textContent = cameAs === '' ? data.name : cameAs;
   byId('verdicts')
       .replaceChildren(...runs.map(
-          (run, i) => element('p', {class: `run-${i}`}, element('b', {}, `${run.title}: `), run.end)));
-  byId('edited').hidden = data === original;
+          (run, i) => element('p', {class: `run-${i}`}, element('b', {}, `${run.title}: `), endOf(run))));
+  byId('edited').hidden = data === original || cameAs !== '';
+  byId('algebra').replaceChildren(foldedIfLarge(data, algebra));
   controls.slider.max = runs[0].last;
   byId('runs').replaceChildren(...panels.map(part => part.node));
   byId('cones').replaceChildren(cones.node);
@@ -239,21 +255,26 @@ function use(given) {
   byId('picture').replaceChildren();
   if (picture !== null) {
     byId('picture').append(
-        picture.node, element('figcaption', {}, 'The scene, and the force of each contact at this step'));
+        picture.node,
+        element(
+            'figcaption', {},
+            'The scene, and the force of each numbered contact at this step, in newtons; g: the way of gravity'));
   }
   byId('picture').hidden = picture === null;
 }
 
 function showOriginal() {
-  shown.problem = '';
+  shown.problem = cameAs = '';
   use(original);
   go(0);
 }
 
 // `edited`: {problem, policy} of the run.
-function showEdited(given, {problem, policy}) {
-  shown.problem = encoded(problem, policy);
-  use(given);
+function showEdited(data, {problem, policy}) {
+  const came = cameAs === '' ? null : decoded(location.hash.match(kAddress)?.[3] ?? '');
+  if (came === null || JSON.stringify(came.problem) !== JSON.stringify(problem) || came.policy !== policy) cameAs = '';
+  shown.problem = encoded(cameAs === '' ? problem : {name: cameAs, ...problem}, policy);
+  use(data);
   go(0);
 }
 

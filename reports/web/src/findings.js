@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// The findings of a report: sorted, filtered, searched, named by what happens, and with links that play them.
+import {showGallery} from './gallery.js';
+import {nameSetup, watchTables} from './page.js';
+
+const data = JSON.parse(document.getElementById('data').textContent);
+
+showGallery(data.findings, data.plays);
+nameSetup();
+watchTables();
