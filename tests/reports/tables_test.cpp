@@ -151,7 +151,7 @@ TEST_CASE("tables: problems count once, runs for every policy, and what was only
   record.signatures = {{finding.signature, 7}, {"cycle-2c-4d-12s-00", 5}};
   const std::vector<Finding> findings = {finding};
   content.discoveries = Discoveries(record, findings);
-  const Html section = FoundSection(content);
+  const Html section = CountedSection(content);
   CHECK(section.markup().find("<strong>1,234</strong> <span>problems run</span>") != std::string::npos);
   CHECK(section.markup().find("<strong>2,468</strong>") != std::string::npos);
   // groups, finished, pending, only counted

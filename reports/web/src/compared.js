@@ -52,7 +52,7 @@ function ratePlot(generator, lines, width, domain) {
             x: {type: 'log', domain, label: 'in a million runs', clamp: true},
             y: {type: 'band', domain: places, label: 'contacts'},
             marks: [
-              p.lines('x', 60), p.xAxis({tickFormat: p.shortNumber, tickSpacing: 60}),
+              p.lines('x', 60), p.xAxis({ticks: p.logTicks(domain), tickFormat: p.shortNumber}),
               p.yAxis({tickFormat: name => name}),
               ...sides.flatMap((_, i) => marks(lines.filter(line => line.i === i), i, domain[0]))
             ]
@@ -111,7 +111,7 @@ function stepsPlot(rows, width, {most, floor}) {
             x: {domain: [-0.5, most + 1], label: 'steps'},
             y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
             marks: [
-              p.lines('y', 32), p.yAxis({tickSpacing: 32, tickFormat: p.shareOfTen}), p.xAxis({tickSpacing: 45}),
+              p.logLines([floor, 1]), p.logAxis([floor, 1], p.share), p.xAxis({tickSpacing: 45}),
               ...sides.map(bars)
             ]
           },

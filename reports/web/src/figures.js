@@ -98,7 +98,7 @@ function stepsPlot(rows, {width, most, floor}) {
         x: {domain: [-0.5, most + 1], label: 'steps'},
         y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
         marks: [
-          p.lines('y', 32), p.yAxis({tickSpacing: 32, tickFormat: p.shareOfTen}), p.xAxis({tickSpacing: 45}),
+          p.logLines([floor, 1]), p.logAxis([floor, 1], p.share), p.xAxis({tickSpacing: 45}),
           bars(rows, 'steps', floor, total, 'var(--bar)', thick, title)
         ]
       },
@@ -187,6 +187,7 @@ const shared = [['zero', 'a step of length zero', 'zero_steps'], ['give_up', 'a 
 
 // Steps, on a logarithmic scale: as many as half of the runs, 99 of 100, and all take at most.
 function withinPlot(rows, values, width) {
+  const domain = [0.9, 1.2 * Math.max(...rows.map(row => row.most))];
   const told = ([key, name]) => row =>
       `${p.contactsOf(row.contacts)}, ${name}: at most ${p.count(row[key])} steps; ${p.count(row.runs)} runs`;
   return p.small(
@@ -197,9 +198,9 @@ function withinPlot(rows, values, width) {
             width,
             height: 250,
             x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
-            y: {type: 'log', domain: [0.9, 1.2 * Math.max(...rows.map(row => row.most))], label: 'steps', clamp: true},
+            y: {type: 'log', domain, label: 'steps', clamp: true},
             marks: [
-              p.lines('y', 34), p.yAxis({tickSpacing: 34, tickFormat: p.shortNumber}), p.xAxis(),
+              p.logLines(domain), p.logAxis(domain, p.shortNumber), p.xAxis(),
               ...within.map((each, i) => dot(rows, {
                               x: 'contacts',
                               y: row => Math.max(0.9, row[each[0]]),
@@ -316,7 +317,7 @@ function rungsPlot(family, rows, {width, domain, most}) {
             y: {domain: [0, most], label: 'wrong or undecided, %'},
             marks: [
               p.lines('y', 45), p.yAxis({tickSpacing: 45, tickFormat: p.share}),
-              p.xAxis({tickFormat: p.shortNumber}), dot(rows, mark)
+              p.xAxis({ticks: p.logTicks(domain), tickFormat: p.shortNumber}), dot(rows, mark)
             ]
           },
           `Time and lost answers on ${family}: ${rows.map(title).join('; ')}`));

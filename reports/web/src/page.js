@@ -16,7 +16,7 @@ export function watchTables() {
   const tell = box => {
     const scrolls = box.scrollWidth > box.clientWidth + 1;
     if (scrolls && !told.has(box)) {
-      told.set(box, element('p', {class: 'scrolls', 'aria-hidden': 'true'}, 'This table scrolls sideways →'));
+      told.set(box, element('p', {class: 'scrolls', 'aria-hidden': 'true'}, 'Scrolls sideways →'));
       box.before(told.get(box));
     }
     if (told.has(box)) told.get(box).hidden = !scrolls;

@@ -28,16 +28,11 @@ export function withInterval(value, low, high, unit = '') {
 export const told = line => `${count(line.count ?? line.solved)} of ${count(line.of ?? line.asked)}: ` +
     withInterval(100 * line.share, 100 * line.low, 100 * line.high, ' %');
 
-const isPowerOfTen = x => Math.abs(Math.log10(x) - Math.round(Math.log10(x))) < 1e-9;
-
-// 0.01, 10, 1k, 1M; nothing between powers of ten.
+// 0.01, 20, 1k, 1M.
 export function shortNumber(x) {
-  if (!isPowerOfTen(x)) return '';
   if (x >= 1e6) return `${rate(x / 1e6)}M`;
   return x >= 1e3 ? `${rate(x / 1e3)}k` : rate(x);
 }
-
-export const shareOfTen = x => isPowerOfTen(x) ? share(x) : '';
 
 // ---- Rows ----
 
@@ -58,6 +53,16 @@ export const xAxis = options => axisX({tickSize: 0, labelArrow: 'none', labelAnc
 export const yAxis = options => axisY({tickSize: 0, labelArrow: 'none', labelAnchor: 'top', ...options});
 export const lines = (axis, tickSpacing) =>
     (axis === 'x' ? gridX : gridY)({stroke: 'var(--line)', strokeOpacity: 1, tickSpacing});
+
+// Ticks of a logarithmic axis, and lines at them: powers of ten, and 2 and 5 of each where these are few.
+export function logTicks([low, high]) {
+  const powers = [];
+  for (let e = Math.floor(Math.log10(low)); 10 ** e <= high; ++e) powers.push(10 ** e);
+  const all = powers.length > 3 ? powers : powers.flatMap(x => [x, 2 * x, 5 * x]);
+  return all.filter(x => x >= low * (1 - 1e-9) && x <= high * (1 + 1e-9));
+}
+export const logLines = domain => gridY({stroke: 'var(--line)', strokeOpacity: 1, ticks: logTicks(domain)});
+export const logAxis = (domain, tickFormat) => yAxis({ticks: logTicks(domain), tickFormat});
 
 // A plot with a name, and without the style element that it brings and the policy of the page refuses.
 export function drawn(options, label) {

@@ -37,7 +37,7 @@ function oftenPlot(rows, {width, domain, values}) {
             x: {type: 'point', domain: values, label: 'friction coefficient μ', padding: 0.6},
             y: {type: 'log', domain, label: 'loops in a million runs', clamp: true},
             marks: [
-              p.lines('y', 34), p.yAxis({tickSpacing: 34, tickFormat: p.shortNumber}),
+              p.logLines(domain), p.logAxis(domain, p.shortNumber),
               p.xAxis({ticks: fitting(values, width)}), ruleX(some, {y1: 'low', ...line}),
               ruleX(none, {y1: domain[0], ...line, strokeOpacity: 0.6, strokeDasharray: '2,3'}),
               dot(none, {x: 'friction', y: 'high', symbol: 'triangle', rotate: 180, r: 3.4, stroke, title: told}),
@@ -105,7 +105,7 @@ function ratePlot(rows, by, outcome, {width, domain, values, contacts}) {
         x: {type: 'point', domain: values, label: names[by], padding: 0.6},
         y: {type: 'log', domain, label: 'in a million runs', clamp: true},
         marks: [
-          p.lines('y', 30), p.yAxis({tickSpacing: 30, tickFormat: p.shortNumber}),
+          p.logLines(domain), p.logAxis(domain, p.shortNumber),
           p.xAxis({ticks: fitting(values, width)}),
           ...groups.flatMap(group => marks(group, by, domain[0], shift(group)))
         ]

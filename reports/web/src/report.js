@@ -4,7 +4,7 @@
 import {byId, element} from './dom.js';
 import {figures} from './figures.js';
 import {lowerIndices} from './math.js';
-import {addressOf, nameOfFinding} from './names.js';
+import {addressOf, loopOf, nameOfFinding} from './names.js';
 import {nameSetup, openFolded, watchTables} from './page.js';
 import {drawFigures} from './places.js';
 import {showPlay} from './play.js';
@@ -19,6 +19,8 @@ function nameFindings() {
     if (finding === undefined) continue;
     const href = addressOf(finding, data.player?.problem.dimension ?? 0), name = nameOfFinding(finding);
     node.replaceChildren(href === null ? name : element('a', {href}, name));
+    const loops = loopOf(finding.kind, finding.start, finding.period);
+    if (loops !== null) node.parentNode.querySelector(':scope > small')?.prepend(`${loops}; `);
   }
 }
 
