@@ -211,8 +211,8 @@ class SimulationWriter {
     std::vector<double> largest;
     for (const Picture& picture : pictures_) largest.push_back(LargestForce(picture.marks));
     const double newton = ForceScale(view_, std::move(largest));
-    folder_.Write("animation.html",
-                  AnimationPage(scene, view_, pictures_, newton, static_cast<double>(o_.frames_a_second)));
+    folder_.Write("animation.html", AnimationPage(scene, view_, pictures_, newton,
+                                                  static_cast<double>(o_.frames_a_second), tables_.Motions()));
     SceneType moved = scene;
     for (std::size_t k = 0; o_.svg && k < pictures_.size(); ++k) {
       SetPoses(moved, pictures_[k]);
@@ -230,7 +230,7 @@ class SimulationWriter {
 
  private:
   // What problems a page holds: of a frame with at most so many entries of A, and about so many characters.
-  static constexpr std::size_t kMostEntries = 10'000, kMostText = 4'000'000;
+  static constexpr std::size_t kMostEntries = 10'000, kMostText = 200'000;
 
   static void MakeFolder(const fs::path& folder) {
     std::error_code error;

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/animation.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <map>
+#include <set>
+#include <string_view>
 
 #include "corpus/json.h"
 #include "reports/animation_template.h"
@@ -15,40 +22,106 @@ namespace {
 
 constexpr std::array kKinds = {"bilateral", "frictionless", "static", "sliding"};
 
-// A force of a contact by rows, exactly, and as draw.h shows it: pixels of a newton, before it is cut.
+// Numbers as bytes, the least ones first, and these as base64: a page of many frames is small.
+class PackedNumbers {
+ public:
+  void AddWord(double x) {
+    const auto word =
+        static_cast<std::uint16_t>(static_cast<std::int16_t>(std::clamp(std::round(x), -32768.0, 32767.0)));
+    Add(word, 2);
+  }
+  void AddFloat(double x) { Add(std::bit_cast<std::uint32_t>(static_cast<float>(x)), 4); }
+
+  std::string Text() const {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
+      std::uint32_t three = 0;
+      for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes_.size() ? bytes_[i + k] : 0);
+      for (std::size_t k = 0; k < 4; ++k)
+        text += i + k <= bytes_.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+  }
+
+ private:
+  void Add(std::uint32_t bits, int bytes) {
+    for (int k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(bits >> 8 * k));
+  }
+  std::vector<std::uint8_t> bytes_;
+};
+
+constexpr double kTenths = 10, kTurns = 1e4;  // of a pixel; of a cosine
+
+// What contacts of all frames have in common, each once.
 template <class Kind>
-Json ForceJson(const SceneIn<Kind, double>& scene, const Screen& screen, const AppliedForceIn<Kind>& force,
-               double newton) {
-  const Vector2<double> at = Seen(force.point);
+class Contacts {
+ public:
+  int IndexOf(const AppliedForceIn<Kind>& force) {
+    Json contact = {{"bodies", {force.bodies[0], force.bodies[1]}},
+                    {"kind", kKinds[static_cast<std::size_t>(force.law.kind)]},
+                    {"rows", force.rows.size()}};
+    if (force.law.HasFrictionRows()) contact["mu"] = force.law.mu;
+    const auto [found, is_new] = index_.emplace(contact.dump(), static_cast<int>(json_.size()));
+    if (is_new) json_.push_back(std::move(contact));
+    return found->second;
+  }
+  const Json& json() const { return json_; }
+
+ private:
+  std::map<std::string, int> index_;
+  Json json_ = Json::array();
+};
+
+// A force as draw.h shows it, in tenths of a pixel before it is cut, and by rows. `at` is its place.
+template <class Kind>
+void AddForce(PackedNumbers& packed, const SceneIn<Kind, double>& scene, const Screen& screen,
+              const AppliedForceIn<Kind>& force, double newton, int contact, const std::array<double, 2>& at) {
   const double side = ShownSide(scene, force.bodies) == 0 ? 1 : -1;
-  const Vector2<double> along = side * newton * screen.scale * Seen(force.force);
-  Json rows = Json::array();
-  for (const double f : force.rows) rows.push_back(f);
-  Json json = {{"at", InPicture(screen.X(at), screen.Y(at))},
-               {"along", InPicture(along[0], -along[1])},
-               {"bodies", {force.bodies[0], force.bodies[1]}},
-               {"kind", kKinds[static_cast<std::size_t>(force.law.kind)]},
-               {"f", std::move(rows)}};
-  if (force.law.HasFrictionRows()) json["mu"] = force.law.mu;
-  return json;
+  Vector2<double> along = kTenths * side * newton * screen.scale * Seen(force.force);
+  along *= std::min(1.0, 32000 / std::max(1.0, along.norm()));  // far longer than what is shown
+  packed.AddWord(contact);
+  for (const double x : at) packed.AddWord(kTenths * x);
+  packed.AddWord(along[0]);
+  packed.AddWord(-along[1]);
+  for (const double f : force.rows) packed.AddFloat(f);
 }
+
+// x and y in tenths of a pixel, cosine and sine in ten thousandths, of each body in the plane.
+Json PosesOf(const Scene<double>& scene, const Screen& screen) {
+  Json poses = Json::array();
+  for (const auto& body : scene.bodies) {
+    for (const double x : {kTenths * screen.X(body.position), kTenths * screen.Y(body.position),
+                           kTurns * body.rotation[0], kTurns * body.rotation[1]})
+      poses.push_back(std::llround(x));
+  }
+  return poses;
+}
+Json PosesOf(const SceneInSpace<double>&, const Screen&) { return Json::array(); }
 
 template <class Kind>
 Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const FrameIn<Kind>& frame,
-               double newton) {
-  Json points = Json::array(), forces = Json::array();
+               double newton, Contacts<Kind>& contacts) {
+  PackedNumbers forces;
+  std::set<std::array<double, 2>> places;
+  for (const auto& force : frame.marks.forces) {
+    if (force.from_joint) continue;
+    const Vector2<double> at = Seen(force.point);
+    const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
+    places.insert(place);
+    AddForce(forces, moved, screen, force, newton, contacts.IndexOf(force), place);
+  }
+  Json points = Json::array();  // that bear no force
   for (const auto& contact : frame.marks.contacts) {
     const Vector2<double> at = Seen(contact);
-    points.push_back(InPicture(screen.X(at), screen.Y(at)));
-  }
-  for (const auto& force : frame.marks.forces) {
-    if (!force.from_joint) forces.push_back(ForceJson(moved, screen, force, newton));
+    const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
+    if (!places.contains(place)) points.push_back(place);
   }
   return {{"time", frame.time},
-          {"transforms", Transforms(moved, screen)},
+          {"poses", PosesOf(moved, screen)},
           {"placed", Placed(moved, screen).markup()},
           {"points", std::move(points)},
-          {"forces", std::move(forces)},
+          {"forces", forces.Text()},
           {"problems", frame.problems},
           {"remark", frame.remark},
           {"energy", NumbersToJson(frame.energy)},
@@ -59,30 +132,40 @@ Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const F
 
 template <class Kind>
 std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
-                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate) {
+                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate,
+                          const std::vector<BodyMotion>& motions) {
   const Screen screen(view);
+  Contacts<Kind> contacts;
   Json names = Json::array(), bodies = Json::array(), shown = Json::array();
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) names.push_back(NameOfBody(scene, i));
   for (const Html& picture : BodyPictures(scene, screen)) bodies.push_back(picture.markup());
   SceneIn<Kind, double> moved = scene;
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    shown.push_back(FrameJson(moved, screen, frame, newton));
+    shown.push_back(FrameJson(moved, screen, frame, newton, contacts));
   }
+  Json ends = Json::array();
+  for (const BodyMotion& motion : motions)
+    ends.push_back({{"body", motion.body}, {"speed", motion.speed}, {"word", motion.word}});
   const Json data = {{"name", scene.name},
                      {"dimension", Kind::kDimension},
                      {"rate", rate},
                      {"size", {screen.width, screen.height}},
+                     {"scale", screen.scale},
                      {"names", names},
                      {"bodies", bodies},
+                     {"contacts", contacts.json()},
+                     {"motions", std::move(ends)},
                      {"frames", std::move(shown)}};
   const std::string page(std::begin(kAnimationTemplate), std::end(kAnimationTemplate));
   return FilledTemplate(page, {{"title", Text(scene.name)}, {"data", ScriptData(JsonText(data))}});
 }
 
 template std::string AnimationPage(const SceneIn<Plane, double>&, const View&,
-                                   const std::vector<FrameIn<Plane>>&, double, double);
+                                   const std::vector<FrameIn<Plane>>&, double, double,
+                                   const std::vector<BodyMotion>&);
 template std::string AnimationPage(const SceneIn<Space, double>&, const View&,
-                                   const std::vector<FrameIn<Space>>&, double, double);
+                                   const std::vector<FrameIn<Space>>&, double, double,
+                                   const std::vector<BodyMotion>&);
 
 }  // namespace stiction

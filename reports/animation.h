@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "reports/pictures/draw.h"
+#include "scene/creep.h"
 
 namespace stiction {
 
 // `scene` gives shapes, colours and names, frames the poses. `newton` as in draw.h, `rate`: frames a second
-// when played.
+// when played; `motions`: what bodies do at the end of the run.
 template <class Kind>
 std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
-                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate);
+                          const std::vector<FrameIn<Kind>>& frames, double newton, double rate,
+                          const std::vector<BodyMotion>& motions = {});
 
 }  // namespace stiction
 

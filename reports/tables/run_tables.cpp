@@ -167,8 +167,13 @@ void RunTables<Kind>::Flush() {
 }
 
 template <class Kind>
+std::vector<BodyMotion> RunTables<Kind>::Motions() const {
+  return files_->track.Motions();
+}
+
+template <class Kind>
 std::vector<BodyMotion> RunTables<Kind>::WriteMotions(const SceneIn<Kind, double>& scene) {
-  std::vector<BodyMotion> motions = files_->track.Motions();
+  std::vector<BodyMotion> motions = Motions();
   for (const BodyMotion& motion : motions) files_->motions.Add({scene, motion});
   Flush();
   return motions;

@@ -40,6 +40,7 @@ class RunTables {
   void AddStep(const SimulationIn<Kind>& simulation, double time, const StateRow& state);
   void Flush();
   // How the bodies moved up to now, which goes to a table, too. At the end.
+  std::vector<BodyMotion> Motions() const;
   std::vector<BodyMotion> WriteMotions(const SceneIn<Kind, double>& scene);
 
  private:

@@ -5,14 +5,21 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 
+import {framesOf} from '../../reports/web/src/frames.js';
+
 import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
 
 const {PROGRAM} = process.env;
 const names = ['plane', 'space', 'large'];
 const opened = (name, use, options = {}) =>
     openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
-const dataOf = page => page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
+const dataOf = async page => {
+  const data = await page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
+  return {...data, frames: framesOf(data)};
+};
 const frame = page => page.$eval('#player input', slider => Number(slider.value));
+// Of all contacts.
+const openAll = page => page.click('#all summary');
 const numbers = page => page.$$eval(
     '#forces tbody tr',
     rows => rows.map(row => [...row.querySelectorAll('data')].map(data => Number(data.value))));
@@ -60,7 +67,7 @@ test('the tab key reaches the controls in their order', async () => {
       seen.push(await page.evaluate(
           () => document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent));
     }
-    assert.deepEqual(seen, ['Play', 'Forward', 'Last', 'Frame', 'Speed', 'link']);
+    assert.deepEqual(seen, ['Play', 'Forward', 'Last', 'Frame', 'Speed', 'Copy link']);
   });
 });
 
@@ -83,7 +90,10 @@ test('energy and drift are drawn over time, with a mark at the frame that is sho
 
 test('the table has the numbers of the frame, and the problem that is saved gives them', async () => {
   await opened('plane', async page => {
-    const {forces} = (await dataOf(page)).frames[0], shown = await numbers(page);
+    const {forces} = (await dataOf(page)).frames[0];
+    await openAll(page);
+    await page.waitForSelector('#forces tbody tr');
+    const shown = await numbers(page);
     assert.deepEqual(shown.map(row => row.slice(0, 2)), forces.map(({f}) => f));
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('.save')]);
     const file = await download.path();
@@ -99,31 +109,62 @@ test('the table has the numbers of the frame, and the problem that is saved give
   });
 });
 
-test(
-    'each contact of a frame has an arrow, a number and a figure, and of many a table that scrolls',
-    async () => {
-      for (const name of names) {
-        await opened(name, async page => {
-          const {forces} = (await dataOf(page)).frames[0], few = Math.min(forces.length, 12);
-          assert.equal(await page.locator('.marks .force').count(), forces.filter(({f}) => f[0] !== 0).length);
-          assert.deepEqual(
-              await page.$$eval('.marks text', texts => texts.map(text => Number(text.textContent))),
-              forces.length > few ? [] : forces.map((_, i) => i + 1));
-          assert.equal(await page.locator('#cones figure').count(), few);
-          const modes =
-              await page.$$eval('#forces tbody td:last-child', cells => cells.map(cell => cell.textContent));
-          const places =
-              await page.$$eval('#cones figcaption span', spans => spans.map(span => span.textContent));
-          for (const [i, place] of places.entries())
-            assert.ok(place.endsWith(`, ${modes[i]}`), `${place}; ${modes[i]}`);
-          const said = await page.textContent('#cones');
-          assert.equal(said.includes(`the table has all ${forces.length}`), forces.length > few);
-          assert.equal(said.includes('scales of their own'), false);
-          const {height} = await page.locator('#forces').boundingBox();
-          assert.ok(height <= 0.6 * 900 + 1, `${height} pixels high`);
-        });
-      }
+test('the contact that is chosen has a table and a figure; all are in a table that scrolls', async () => {
+  for (const name of names) {
+    await opened(name, async page => {
+      const {forces} = (await dataOf(page)).frames[0], numbered = forces.length <= 12;
+      assert.equal(await page.locator('.marks .force').count(), forces.filter(({f}) => f[0] !== 0).length);
+      const sizes = forces.map(({f}) => Math.hypot(...f)), largest = sizes.indexOf(Math.max(...sizes));
+      const seen = () => page.$$eval('.marks text', texts => texts.map(text => Number(text.textContent)));
+      assert.deepEqual(await seen(), numbered ? forces.map((_, i) => i + 1) : [largest + 1]);
+      const check = async at => {
+        assert.equal(await page.textContent('#chosen tbody th'), String(at + 1));
+        assert.equal(await page.locator('#chosen tbody tr').count(), 1);
+        assert.equal(await page.locator('#cones figure').count(), 1);
+        assert.equal(await page.textContent('#cones figcaption strong'), `Contact ${at + 1}`);
+        const mode = await page.textContent('#chosen tbody td:last-child');
+        assert.ok((await page.textContent('#cones figcaption span')).endsWith(`, ${mode}`));
+        assert.equal(Number(await page.getAttribute('#chosen td.n data', 'value')), forces[at].f[0]);
+      };
+      await check(largest);
+      const next = (largest + 1) % forces.length;
+      await page.keyboard.press('n');
+      await check(next);
+      await page.selectOption('#choice select', '0');
+      await check(0);
+      assert.equal((await page.textContent('#cones')).includes('scales of their own'), false);
+      await openAll(page);
+      await page.waitForSelector('#forces tbody tr');
+      assert.equal(await page.locator('#forces tbody tr').count(), forces.length);
+      const {height} = await page.locator('#forces').boundingBox();
+      assert.ok(height <= 0.6 * 900 + 1, `${height} pixels high`);
     });
+  }
+});
+
+test('what is less than a billionth of the largest force is shown as 0', async () => {
+  await opened('plane', async page => {
+    const {frames} = await dataOf(page), all = frames.flatMap(({forces}) => forces.flatMap(({f}) => f.map(Math.abs)));
+    const noise = 1e-9 * Math.max(...all);
+    await openAll(page);
+    for (const {forces} of frames) {
+      const shown = await numbers(page);
+      for (const [i, {f}] of forces.entries()) {
+        assert.deepEqual(shown[i].slice(0, 2), f.map(x => Math.abs(x) < noise ? 0 : x));
+      }
+      await page.keyboard.press('ArrowRight');
+    }
+  });
+});
+
+test('energy, drift and creep stand under the scene', async () => {
+  await opened('plane', async page => {
+    const [scene, charts] = await page.$$eval(
+        '#picture svg, #charts', all => all.map(node => node.getBoundingClientRect().toJSON()));
+    assert.ok(charts.top >= scene.bottom && charts.left < scene.right);
+    assert.match(await page.textContent('#creep'), /^At the end of the run: \d+ (rests|creeps|slides|flies|moves)/);
+  });
+});
 
 // As in mu = 1/2: the cone rises two for one that it goes aside.
 test('a cone has its own angle', async () => {
@@ -138,12 +179,15 @@ test('a cone has its own angle', async () => {
 
 test('all cones have one scale', async () => {
   await opened('space', async page => {
-    const {forces} = (await dataOf(page)).frames[0],
-          lengths = await page.$$eval('#cones svg', figures => figures.map(figure => {
-            const from = Number(figure.querySelector('.force line').getAttribute('y1'));
-            return from - Number(figure.querySelector('.tip').getAttribute('points').split(/[ ,]/)[1]);
-          }));
-    const scales = lengths.map((length, i) => length / forces[i].f[0]);
+    const {forces} = (await dataOf(page)).frames[0], scales = [];
+    for (const [i, {f}] of forces.entries()) {
+      await page.selectOption('#choice select', String(i));
+      const length = await page.$eval('#cones svg', figure => {
+        const from = Number(figure.querySelector('.force line').getAttribute('y1'));
+        return from - Number(figure.querySelector('.tip').getAttribute('points').split(/[ ,]/)[1]);
+      });
+      scales.push(length / f[0]);
+    }
     assert.ok(scales.every(scale => Math.abs(scale / scales[0] - 1) < 0.01), String(scales));
   });
 });

@@ -36,6 +36,10 @@ class Browser(cli.TestCase):
                            "--no-svg")
             self.assertEqual(done.code, 0, done.err)
             shutil.copy(out / "animation.html", self.folder / f"{name}.html")
+        out = self.folder / "wall"
+        self.succeeds("simulate", cli.ROOT / "corpus/scenes/large/brick-wall.json", "-o", out, "--seconds", 3, "--no-svg",
+                      "--tables", "none")
+        self.assertLess((out / "animation.html").stat().st_size, 1000000)  # about 90 frames of 100 bodies
         script = Path(__file__).with_name("animation_browser.mjs")
         done = subprocess.run(["node", "--test", script], capture_output=True, text=True, timeout=600, env=dict(
             os.environ, PAGES=str(self.folder), PACKAGES=str(packages), BROWSER=browser, PROGRAM=cli.program))

@@ -3,8 +3,12 @@
 
 #include "reports/animation.h"
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "corpus/json.h"
 #include "reports/pictures/draw_bodies.h"
@@ -34,6 +38,19 @@ AppliedForceIn<Plane> ForceOf(int on, int from) {
   return force;
 }
 
+std::vector<std::uint8_t> FromBase64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t bits = 0;
+  int many = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    many += 6;
+    if (many >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (many -= 8)));
+  }
+  return bytes;
+}
+
 TEST_CASE(
     "animation: a force acts on the body that moves, has its rows and its friction, and those of joints are "
     "left out") {
@@ -49,16 +66,24 @@ TEST_CASE(
   const std::size_t from = page.find(begin) + begin.size();
   const Json data = ParseJson(page.substr(from, page.find("</script>", from) - from), "data");
   CHECK(data["names"] == Json({"body 1", "disc"}));
-  const Json& forces = data["frames"][0]["forces"];
-  REQUIRE(forces.size() == 2);
-  CHECK(forces[0]["f"] == Json({3.0, -1.0}));
-  CHECK(forces[0]["mu"] == 0.5);
-  CHECK(forces[0]["kind"] == "static");
+  REQUIRE(data["contacts"].size() == 2);
+  CHECK(data["contacts"][0] == Json({{"bodies", {1, 0}}, {"kind", "static"}, {"rows", 2}, {"mu", 0.5}}));
+  const std::vector<std::uint8_t> bytes = FromBase64(data["frames"][0]["forces"].get<std::string>());
+  constexpr std::size_t kBytes = 18;  // of a force in the plane
+  REQUIRE(bytes.size() == 2 * kBytes);
+  const auto word = [&bytes](std::size_t at) {
+    return static_cast<std::int16_t>(bytes[at] | bytes[at + 1] << 8);
+  };
   for (const int side : {0, 1}) {
     INFO(side);
+    const std::size_t begin_of = side * kBytes;
     const double sign = side == 0 ? 1 : -1;
-    CHECK(forces[side]["along"][0].get<double>() == Approx(sign * pixels).margin(0.01));
-    CHECK(forces[side]["along"][1].get<double>() == Approx(-3 * sign * pixels).margin(0.01));
+    CHECK(word(begin_of) == side);
+    CHECK(word(begin_of + 6) / 10.0 == Approx(sign * pixels).margin(0.06));
+    CHECK(word(begin_of + 8) / 10.0 == Approx(-3 * sign * pixels).margin(0.06));
+    std::array<float, 2> rows = {};
+    std::memcpy(rows.data(), &bytes[begin_of + 10], sizeof rows);
+    CHECK(rows == std::array<float, 2>{3, -1});
   }
 }
 

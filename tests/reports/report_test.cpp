@@ -710,7 +710,7 @@ TEST_CASE("draw: a page escapes the name of its scene, and its frames are JSON, 
     const Json data = ParseJson(page.substr(from, to - from), "data");
     REQUIRE(data["frames"].size() == 1);
     CHECK(data["frames"][0]["time"] == 0.5);
-    CHECK(data["frames"][0]["transforms"].size() == transforms);
+    CHECK(data["frames"][0]["poses"].size() == 4 * transforms);
     CHECK(data["frames"][0]["points"].size() == 1);
     CHECK(Has(DrawSvg(scene, view, marks, 1), "#30c030"));
   };

@@ -3,18 +3,27 @@
 import {Chart} from './charts.js';
 import {Cones, forceArrow} from './cones.js';
 import {byId, element, icon, svgElement} from './dom.js';
+import {framesOf} from './frames.js';
 import {short} from './numbers.js';
-import {button, icons} from './player.js';
+import {button, copyLink, icons} from './player.js';
 
-const kCones = 12;      // contacts of a frame that have a figure each
+const kNumbered = 12;   // contacts of a frame that have a number each; of more only the one that is chosen
 const kLongest = 0.25;  // arrow, of the picture's height
 
-const data = JSON.parse(byId('data').textContent), frames = data.frames, last = frames.length - 1;
+const kNoise = 1e-9;    // of the largest force of the scene: what is below is shown as 0
+
+const data = JSON.parse(byId('data').textContent), frames = framesOf(data), last = frames.length - 1;
+const largest = Math.max(0, ...frames.flatMap(({forces}) => forces.flatMap(({f}) => f.map(Math.abs))));
+for (const {forces} of frames) {
+  for (const force of forces) force.f = force.f.map(x => Math.abs(x) < kNoise * largest ? 0 : x);
+}
+
 const shown = {
   frame: 0,
   began: null,
   from: 0,
-  request: null
+  request: null,
+  chosen: null,  // key of a contact; null: that of the largest force
 };
 
 // ---- Forces ----------------------------------------------------------------------------------
@@ -61,7 +70,8 @@ const below = index => element('sub', {}, index);
 
 const headCell = ([style, ...name]) => element('th', {scope: 'col', class: style}, ...name);
 
-function table(forces) {
+// Of the forces with these numbers.
+function table(forces, shownOnes) {
   if (forces.length === 0) return element('p', {class: 'note'}, 'No contact bears a force in this frame.');
   const head = [
     ['', 'Contact'], ['', 'Bodies'], ['n', 'f', below('N')],
@@ -71,23 +81,62 @@ function table(forces) {
   ];
   return element(
       'table', {class: 'values'}, element('caption', {}, 'Forces of the contacts of this frame, in newtons'),
-      element('thead', {}, element('tr', {}, ...head.map(headCell))), element('tbody', {}, ...forces.map(row)));
+      element('thead', {}, element('tr', {}, ...head.map(headCell))), element('tbody', {}, ...shownOnes.map(i => row(forces[i], i))));
 }
 
-function cones(forces) {
-  const few = forces.slice(0, kCones);
-  const run = {last: 0, f: () => few.flatMap(force => force.f)};
-  const contacts = few.map(force => ({kind: force.kind, mu: force.mu, mode: modeOf(force)}));
-  const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reachOf(forces));
+function cones(forces, i) {
+  const force = forces[i], run = {last: 0, f: () => force.f};
+  const contacts = [{kind: force.kind, mu: force.mu, mode: modeOf(force)}];
+  const figures = new Cones({problem: {dimension: data.dimension, contacts}}, [run], reachOf(forces), i + 1);
   figures.show([0]);
-  const more = forces.length - few.length;
   return [
-    figures.node,
-    figures.areToScale ? '' : element('p', {class: 'note'}, 'The axes have scales of their own.'),
-    more > 0 ? element('p', {class: 'note'}, `The first ${few.length}; the table has all ${forces.length}.`) :
-               '',
+    figures.node, figures.areToScale ? '' : element('p', {class: 'note'}, 'The axes have scales of their own.')
   ];
 }
+
+// ---- The contact chosen ----------------------------------------------------------------------
+
+// Of each contact its bodies, and which of these it is: the same in another frame where as many touch.
+function keysOf(forces) {
+  const met = new Map();
+  return forces.map(({bodies}) => {
+    const pair = bodies.join(','), number = met.get(pair) ?? 0;
+    met.set(pair, number + 1);
+    return `${pair},${number}`;
+  });
+}
+
+// Its place in the frame; the largest force where none is chosen, or it does not touch.
+function chosenOf(forces) {
+  const at = shown.chosen === null ? -1 : keysOf(forces).indexOf(shown.chosen);
+  if (at >= 0) return at;
+  const sizes = forces.map(({f}) => Math.hypot(...f));
+  return sizes.indexOf(Math.max(...sizes));
+}
+
+function choose(i) {
+  shown.chosen = keysOf(frames[shown.frame].forces)[i];
+  draw();
+}
+
+const nameOf = ({bodies}, i) => `${i + 1}: ${bodies.map(body => data.names[body]).join(' on ')}`;
+const choice = element(
+    'select', {'aria-label': 'Contact', change: () => choose(Number(choice.value))});
+byId('choice').append(choice);
+
+function drawChosen(forces) {
+  const chosen = forces.length === 0 ? -1 : chosenOf(forces);
+  if (choice.options.length !== forces.length || [...choice.options].some((option, i) => option.text !== nameOf(forces[i], i)))
+    choice.replaceChildren(...forces.map((force, i) => element('option', {value: i}, nameOf(force, i))));
+  choice.value = chosen;
+  byId('choice').hidden = chosen < 0;
+  byId('chosen').replaceChildren(table(forces, chosen < 0 ? [] : [chosen]));
+  byId('cones').replaceChildren(...chosen < 0 ? [] : cones(forces, chosen));
+  byId('cones').parentNode.hidden = chosen < 0;
+  if (byId('all').open) byId('forces').replaceChildren(table(forces, forces.map((_, i) => i)));
+  byId('all').hidden = forces.length < 2;
+}
+byId('all').addEventListener('toggle', () => draw());
 
 // ---- Energy and drift ------------------------------------------------------------------------
 
@@ -106,6 +155,25 @@ const charts = [
       [0]),
 ];
 byId('charts').append(...charts.map(({node}) => node));
+
+// What bodies do at the end of the run: "creeps" is slow, and no rest.
+function tellCreep(motions) {
+  const rows = motions.filter(({word}) => word === 'creeps' || word === 'slides')
+                   .sort((a, b) => b.speed - a.speed)
+                   .slice(0, 5);
+  const many = word => motions.filter(motion => motion.word === word).length;
+  const words = ['rests', 'creeps', 'slides', 'flies', 'moves'].filter(word => many(word) > 0);
+  return [
+    element('p', {class: 'note'}, `At the end of the run: ${words.map(word => `${many(word)} ${word}`).join(', ')}.`),
+    rows.length === 0 ?
+        null :
+        element(
+            'p', {class: 'note'},
+            `Fastest of those that creep or slide: ${
+                rows.map(({body, speed, word}) => `${data.names[body]} ${word}, ${short(speed)} m/s`).join('; ')}.`)
+  ].filter(Boolean);
+}
+if (data.motions?.length > 0) byId('creep').append(...tellCreep(data.motions));
 
 // ---- The picture -----------------------------------------------------------------------------
 
@@ -126,9 +194,9 @@ function arrow({at, along: [x, y]}) {
   return forceArrow(at, [at[0] + share * x, at[1] + share * y], style);
 }
 
-function numberOf({at: [x, y]}, i) {
+function numberOf({at: [x, y]}, i, isChosen) {
   return [
-    svgElement('circle', {class: 'contact', cx: x, cy: y, r: 9}),
+    svgElement('circle', {class: isChosen ? 'contact chosen' : 'contact', cx: x, cy: y, r: 9, click: () => choose(i)}),
     svgElement('text', {class: 'contact', x, y, dy: '0.36em', 'text-anchor': 'middle'}, String(i + 1)),
   ];
 }
@@ -136,11 +204,11 @@ function numberOf({at: [x, y]}, i) {
 function drawPicture(frame) {
   frame.transforms.forEach((transform, i) => bodies[i].setAttribute('transform', transform));
   placed.innerHTML = frame.placed;  // as above
-  const numbered = frame.forces.length <= kCones;
+  const numbered = frame.forces.length <= kNumbered, chosen = frame.forces.length === 0 ? -1 : chosenOf(frame.forces);
   marks.replaceChildren(
       ...frame.points.map(([cx, cy]) => svgElement('circle', {class: 'touch', cx, cy, r: 3})),
       ...frame.forces.filter(({along}) => along[0] !== 0 || along[1] !== 0).map(arrow),
-      ...numbered ? frame.forces.flatMap(numberOf) : []);
+      ...frame.forces.flatMap((force, i) => numbered || i === chosen ? numberOf(force, i, i === chosen) : []));
   svg.setAttribute(
       'aria-label', `${data.name} at ${frame.time.toFixed(3)} s, ${frame.forces.length} contacts with forces`);
 }
@@ -157,7 +225,7 @@ const remarks = {
       ['A of this frame has more than 10,000 entries, too many for a page. ', command(),
        ' writes its problem.'],
   room: () =>
-      ['The problems of frames before this one fill what a page holds, 4 MB. ', command(), ' writes all.'],
+      ['The problems of frames before this one fill what a page holds, 200 kB. ', command(), ' writes all.'],
 };
 
 function save(text) {
@@ -189,9 +257,7 @@ function draw() {
   controls.back.disabled = controls.first.disabled = shown.frame === 0;
   controls.next.disabled = controls.last.disabled = shown.frame === last;
   for (const chart of charts) chart.show(shown.frame);
-  byId('forces').replaceChildren(table(frame.forces));
-  byId('cones').replaceChildren(...cones(frame.forces));
-  byId('cones').parentNode.hidden = frame.forces.length === 0;
+  drawChosen(frame.forces);
   if (isPlaying()) return;
   byId('problem').replaceChildren(...problems(frame));
   byId('said').textContent = `Frame ${shown.frame}, ${frame.time.toFixed(3)} s`;
@@ -257,13 +323,16 @@ const controls = {
   speed: element(
       'select', {'aria-label': 'Speed', change: () => (shown.began = null)},
       ...speeds.map(([value, name]) => element('option', {value, selected: value === '1'}, `${name} ×`))),
-  link: element('a', {href: '#frame=0', class: 'link', title: 'The address of this frame'}, 'link'),
+  link: copyLink('frame'),
 };
 const keys = {
   ArrowRight: controls.next,
   ArrowLeft: controls.back,
   Home: controls.first,
-  End: controls.last
+  End: controls.last,
+  c: controls.link,
+  n: {click: () => frames[shown.frame].forces.length > 0 &&
+             choose((chosenOf(frames[shown.frame].forces) + 1) % frames[shown.frame].forces.length)},
 };
 
 function onKey(event) {

@@ -183,11 +183,12 @@ class DiscInSpace {
 // A figure for each contact, with the forces of all runs.
 export class Cones {
   // `reach`: forces that the scales include, such as those of other frames (N across and up, of a disc one).
-  constructor(data, runs, reach = []) {
+  // `first`: the number of the first contact.
+  constructor(data, runs, reach = [], first = 1) {
     this.runs = runs;
     this.figures = layoutOf(data.problem).map((layout, i) => ({
                                                 layout,
-                                                number: i + 1,
+                                                number: i + first,
                                                 picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(
                                                     runs, layout, reach)
                                               }));
