@@ -83,8 +83,10 @@ Json WritePlayer(ReportFiles& folder, const std::vector<Discovery>& discoveries,
       ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, finding.signature);
   std::optional<Playable> playable = extras.play(file, finding.policy, played->files.problem);
   if (!playable) return nullptr;
-  if (const auto& run = played->minimized ? played->minimized : played->found; run && run->grid.AllLoop())
-    playable->data["every_policy"] = true;
+  if (const auto& run = played->minimized ? played->minimized : played->found) {
+    playable->data["looping"] = run->grid.Loops();
+    playable->data["policies"] = run->grid.Total();
+  }
   folder.Write("replay.html", ViewerPage(file.name + ", step by step", playable->data, playable->origin));
   return playable->data;
 }

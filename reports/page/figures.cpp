@@ -40,8 +40,9 @@ Html FigurePlace(const std::string& name, const std::string& caption, const std:
                  const std::string& folder) {
   const std::string file = folder + name.substr(0, name.find('.')) + ".csv";
   const Html command =
-      made_by.empty() ? Html("<code>stiction report STORE -o DIR</code> of <a href=\"#again\">this store</a>")
-                      : Tag("code")(made_by);
+      made_by.empty()
+          ? Html("<code>stiction report STORE -o DIR</code> of <a href=\"index.html#again\">this store</a>")
+          : Tag("code")(made_by);
   const Html source =
       Html("Data: ") + Tag("a", {{"href", file}})(Tag("code")(file)) + Html(", made by ") + command;
   return Tag("figure", {{"class", "plot"}, {"data-figure", name}})(

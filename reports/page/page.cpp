@@ -210,7 +210,7 @@ std::string ResultsPage(const ReportContent& content, const std::vector<Table>& 
       figures,
       {.title = "stiction: all results of a report",
        .heading = "All results",
-       .lead = Html("<p>Every table and figure of <a href=\"index.html\">the report</a>. Findings one by one "
+       .lead = Html("<p class=\"asked\">Every table and figure of <a href=\"index.html\">the report</a>. Findings one by one "
                     "have <a href=\"findings.html\">a page of their own</a>.</p>"),
        .navigation = LinksTo(PlacesOfResults(content)),
        .found = results,

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program under test, its problems and its stores. Used by the tests beside this file."""
 
+import base64
 import hashlib
 import json
 import os
 import shutil
 import sqlite3
+import struct
 import subprocess
 import sys
 import tempfile
@@ -80,6 +82,16 @@ def refused_by_schemas():
 def unwrapped(text):
     """The words of a text. Where its lines break depends on the lengths of the paths in it."""
     return " ".join(text.split())
+
+
+def forces(data, frame):
+    """The forces of a frame of an animation (reports/web/data.md): {bodies, kind, mu, f}."""
+    packed, at, found = base64.b64decode(frame["forces"]), 0, []
+    while at < len(packed):
+        contact = data["contacts"][struct.unpack_from("<h", packed, at)[0]]
+        found.append({**contact, "f": struct.unpack_from(f"<{contact['rows']}f", packed, at + 10)})
+        at += 10 + 4 * contact["rows"]
+    return found
 
 
 def content(store):

@@ -38,7 +38,7 @@ async function look(name) {
   for (let before = null; place() !== before; press('ArrowRight')) {
     before = place();
     frames.push({
-      rows: page.querySelectorAll('#forces tbody tr').length,
+      rows: page.querySelectorAll('#choice option').length,
       shapes: sizes().filter(size => size > 2).length,
       wrong: page.querySelector('main').outerHTML.match(/.{0,60}(NaN|undefined|Infinity|null).{0,60}/)?.[0] ?? '',
     });
@@ -111,9 +111,10 @@ class Pages(cli.TestCase):
         self.assertEqual(sorted(shown), sorted(names))
         for name, page in shown.items():
             text = (self.site / name).read_text()
-            frames = json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])["frames"]
+            data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])
+            frames = data["frames"]
             self.assertEqual([frame["rows"] for frame in page["frames"]],
-                             [len(frame["forces"]) for frame in frames], name)
+                             [len(cli.forces(data, frame)) for frame in frames], name)
             for number, frame in enumerate(page["frames"]):
                 self.assertEqual(frame["wrong"], "", f"{name}, frame {number}")
                 self.assertGreater(frame["shapes"], 0, f"{name}, frame {number}: nothing was drawn")

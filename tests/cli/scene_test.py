@@ -95,13 +95,14 @@ class Scenes(cli.TestCase):
         first, last = data["frames"][0], data["frames"][-1]
         self.assertEqual((last["remark"], last["problems"]), ("last", []))
         problem = json.loads(first["problems"][0])
+        forces = cli.forces(data, first)
         self.assertEqual([float(Fraction(contact["mu"])) for contact in problem["contacts"]],
-                         [force["mu"] for force in first["forces"]])
-        rows = [row for force in first["forces"] for row in force["f"]]
+                         [force["mu"] for force in forces])
+        rows = [row for force in forces for row in force["f"]]
         A = [[float(Fraction(x)) for x in row] for row in problem["A"]]
         for i, b in enumerate(problem["b"]):
             a = sum(x * f for x, f in zip(A[i], rows)) + float(Fraction(b))
-            self.assertLess(abs(a), 1e-6, f"row {i} of a stack at rest")
+            self.assertLess(abs(a), 1e-4, f"row {i} of a stack at rest")  # the page has seven digits of a force
         path = self.file("frame.json", problem)
         self.assertEqual(cli.run("solve", path, "--method", "fast", "--arithmetic", "double").code, 0)
 

@@ -1331,7 +1331,7 @@ TEST_CASE("report: the same content gives the same bytes, in whatever order it c
   WriteReport(one, scratch / "a");
   WriteReport(two, scratch / "b");
   const auto contents = Contents(scratch / "a");
-  CHECK(contents.size() == 15 + 8 + 5 + 1);  // tables, figures, files of the finding, and the list of them
+  CHECK(contents.size() == 17 + 10 + 5 + 1);  // tables, figures, files of the finding, and the list of them
   CHECK(contents == Contents(scratch / "b"));
   WriteReport(one, scratch / "a");
   CHECK(contents == Contents(scratch / "a"));

@@ -31,8 +31,8 @@ const numbersOf = ({A, b, contacts}) => [
 ];
 
 // Of the data of a viewer.
-export function nameOfRun({problem, runs: [{replay}], every_policy: every}) {
-  const grid = every ? {looping: 1, policies: 1} : {};
+export function nameOfRun({problem, runs: [{replay}], every_policy: every, looping, policies}) {
+  const grid = every ? {looping: 1, policies: 1} : {looping, policies};
   return nameOf({
     contacts: problem.contacts.length,
     dimension: problem.dimension,

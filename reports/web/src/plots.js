@@ -58,7 +58,7 @@ export const lines = (axis, tickSpacing) =>
 export function logTicks([low, high]) {
   const powers = [];
   for (let e = Math.floor(Math.log10(low)); 10 ** e <= high; ++e) powers.push(10 ** e);
-  const all = powers.length > 3 ? powers : powers.flatMap(x => [x, 2 * x, 5 * x]);
+  const all = powers.length > 2 ? powers : powers.flatMap(x => [x, 2 * x, 5 * x]);
   return all.filter(x => x >= low * (1 - 1e-9) && x <= high * (1 + 1e-9));
 }
 export const logLines = domain => gridY({stroke: 'var(--line)', strokeOpacity: 1, ticks: logTicks(domain)});

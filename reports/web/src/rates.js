@@ -29,7 +29,7 @@ function oftenPlot(rows, {width, domain, values}) {
       p.drawn(
           {
             width,
-            height: 250,
+            height: 230,
             marginLeft: 48,
             marginBottom: 36,
             marginTop: 24,
@@ -56,7 +56,7 @@ export function drawOften(rows, width, {policy}) {
     domain: [10 ** Math.floor(Math.log10(Math.min(...ends))), Math.max(...ends) * 1.1],
     values: p.unique(mine.map(row => row.friction)).sort((a, b) => numberOf(a) - numberOf(b)),
   };
-  const widths = p.widths(width, 220, groups.length);
+  const widths = p.widths(width, 190, groups.length);
   return [p.grid(groups.map((group, i) => oftenPlot(group, {...options, width: widths[i]})))];
 }
 
