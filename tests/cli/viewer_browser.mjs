@@ -141,7 +141,7 @@ test('arrows and cones have newtons, and a scene its gravity', async () => {
 });
 
 test('A of more than eight rows is folded', async () => {
-  for (const [name, folded] of [['loop', 0], ['frictionless', 0], ['scene-in-space', 1]])
+  for (const [name, folded] of [['loop', 0], ['frictionless', 0], ['large', 1]])
     await opened(name, async page => {
       const rows = await page.evaluate(() => JSON.parse(document.getElementById('data').textContent).rows.length);
       assert.equal(rows > 8, folded === 1, `${name}: ${rows} rows`);

@@ -96,7 +96,8 @@ class Browser(cli.TestCase):
         self.assertIsNotNone(browser, "expected a browser: apt-get install chromium")
         packages = Packages.get()
         at_rest = self.file("problem.json", dict(cli.SOLVED, b=["1", "0"]))  # no step at all
-        for name, words in [*PAGES.items(), ("at-rest", [at_rest.as_posix()])]:
+        for name, words in [*PAGES.items(), ("at-rest", [at_rest.as_posix()]),
+                            ("large", ["corpus/safe-cycle-8-contacts.json"])]:
             done = cli.run("replay", *arguments(words), "--html", self.folder / f"{name}.html", "--step", "--json")
             self.assertIn(done.code, (0, 1), done.err)
             (self.folder / f"{name}.json").write_text(done.out)

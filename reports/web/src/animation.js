@@ -80,7 +80,7 @@ function table(forces, shownOnes) {
     ['n', 'μ f', below('N')], ['n', 'μ'], ['', 'Mode']
   ];
   return element(
-      'table', {class: 'values'}, element('caption', {}, 'Forces of the contacts of this frame, in newtons'),
+      'table', {class: 'values'}, element('caption', {}, 'In newtons'),
       element('thead', {}, element('tr', {}, ...head.map(headCell))), element('tbody', {}, ...shownOnes.map(i => row(forces[i], i))));
 }
 
@@ -156,15 +156,18 @@ const charts = [
 ];
 byId('charts').append(...charts.map(({node}) => node));
 
+const plurals = {rests: 'rest', creeps: 'creep', slides: 'slide', flies: 'fly', moves: 'move'};
+
 // What bodies do at the end of the run: "creeps" is slow, and no rest.
 function tellCreep(motions) {
   const rows = motions.filter(({word}) => word === 'creeps' || word === 'slides')
                    .sort((a, b) => b.speed - a.speed)
                    .slice(0, 5);
   const many = word => motions.filter(motion => motion.word === word).length;
-  const words = ['rests', 'creeps', 'slides', 'flies', 'moves'].filter(word => many(word) > 0);
+  const words = Object.keys(plurals).filter(word => many(word) > 0);
+  const told = words.map(word => `${many(word)} ${many(word) === 1 ? word : plurals[word]}`);
   return [
-    element('p', {class: 'note'}, `At the end of the run: ${words.map(word => `${many(word)} ${word}`).join(', ')}.`),
+    element('p', {class: 'note'}, `At the end of the run, of the bodies: ${told.join(', ')}.`),
     rows.length === 0 ?
         null :
         element(

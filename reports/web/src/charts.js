@@ -3,7 +3,7 @@
 import {element, svgElement} from './dom.js';
 import {short} from './numbers.js';
 
-const kWidth = 480, kHeight = 150, kLeft = 70, kRight = 8, kTop = 8, kBottom = 22;
+const kWidth = 350, kHeight = 140, kLeft = 84, kRight = 8, kTop = 8, kBottom = 22;
 
 // In three digits, however small.
 function level(x) {
