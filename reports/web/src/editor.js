@@ -269,7 +269,10 @@ export class Editor {
       this.tellError(answer.error);
       return false;
     }
-    if (isOriginal) answer.data.picture = this.original.picture;
+    if (isOriginal) {
+      const {picture, every_policy, looping, policies} = this.original;
+      Object.assign(answer.data, {picture, every_policy, looping, policies});
+    }
     this.tell(this.summary(answer.data.runs));
     this.shown(answer.data, {problem: this.draft.problem(), policy});
     return true;
