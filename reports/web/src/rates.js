@@ -30,11 +30,11 @@ function oftenPlot(rows, {width, domain, values}) {
           {
             width,
             height: 230,
-            marginLeft: 48,
+            marginLeft: 40,
             marginBottom: 36,
             marginTop: 24,
             marginRight: 14,
-            x: {type: 'point', domain: values, label: 'friction coefficient μ', padding: 0.6},
+            x: {type: 'point', domain: values, label: 'friction coefficient μ', padding: 0.4},
             y: {type: 'log', domain, label: 'loops in a million runs', clamp: true},
             marks: [
               p.logLines(domain), p.logAxis(domain, p.shortNumber),
