@@ -9,6 +9,7 @@
 #include "corpus/record/digest.h"
 
 namespace stiction {
+
 Playable PlayableOf(const Wanted& wanted, const ProblemFile& file, const Json& picture,
                     const Solution& solution, const std::optional<InexactAnswer>& over_intervals,
                     const std::string& source, const std::string& command) {
