@@ -96,8 +96,7 @@ inline constexpr const char* kRoundInC = R"(
       const double slip = hypot(a[i], a[i + 1]), askew = hypot(f[i] + hi * a[i] / slip, f[i + 1] + hi * a[i + 1] / slip);
       miss(i, (hypot(f[i], f[i + 1]) - hi) / force[i], "is beyond the limit of friction");
       miss(i, fmin(askew / force[i], slip / acts[i]), "slips, and friction is not all against it");
-      ++i;
-      continue;
+      ++i; continue;
     })";
 inline constexpr const char* kJudgeInC = R"(static double worst = @ACCURACY@; /* what it states */
 static char said[200];
@@ -177,8 +176,7 @@ inline constexpr const char* kMainOfEndsInC = R"(int main(void) {
 
 inline constexpr const char* kHeadOfPython = R"(#!/usr/bin/env python3
 """@SAYS@
-    python3 @FILE@ @SOLVER@
-"""
+    python3 @FILE@ @SOLVER@"""
 import ctypes, json, math, os, resource, signal, subprocess, sys
 from fractions import Fraction
 )";

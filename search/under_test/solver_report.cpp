@@ -189,9 +189,9 @@ std::string SolverText(const Store& store, const std::string& file) {
   text = Folded(text + GroupsText(store));
   if (const std::vector<Finding> findings = BySize(store); !findings.empty())
     text += fmt::format(
-        "The same search again goes on. One finding as a problem file, and as a program that shows it:\n    "
-        "{0} "
-        "problem {1} {2}\n    {0} export {1}:{2} --reproducer c -o {2}.c\n",
+        "The same search again goes on. A finding as a problem file, and as a program:\n    {0} problem {1} "
+        "{2}\n"
+        "    {0} export {1}:{2} --reproducer c -o {2}.c\n",
         ProgramName(), file, findings.front().signature);
   return text;
 }

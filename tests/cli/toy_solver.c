@@ -79,7 +79,7 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
   if (b[0] < 0) *(volatile char*)malloc(48) = 1;
 #endif
 #ifdef BUG_SLOW /* where forces are large */
-  for (volatile long turn = 0; turn < (long)(b[0] * b[0]) * 10; ++turn) {
+  for (volatile long turn = 0; turn < (long)(b[0] * b[0]); ++turn) {
   }
 #endif
 #ifdef BUG_HANG
