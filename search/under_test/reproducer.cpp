@@ -329,7 +329,8 @@ std::string ProgramInC(const ProblemShown& posed, const Finding& finding, const 
               {{"@VERDICT@", verdict},
                {"@INDEX@", posed.HasFriction() ? "index.data()" : "nullptr"},
                {"@COPY@", posed.HasFriction() ? "std::vector<int> index(findex, findex + ROWS);\n  " : ""},
-               {"@RIGHT@", posed.right.f ? "right[i]" : "NAN"}});
+               {"@RIGHT@", posed.right.f ? "right[i]" : "NAN"},
+               {"@KNOWN@", posed.right.f ? "right f" : "right f: not known"}});
 }
 
 std::string ProgramInPython(const ProblemShown& posed, const Finding& finding, bool is_library) {

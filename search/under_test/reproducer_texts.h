@@ -122,7 +122,7 @@ inline constexpr const char* kMainInC = R"(int main(void) {
     for (int j = 0; j < ROWS; ++j) sum += (long double)A[i * ROWS + j] * f[j];
     a[i] = (double)sum;
   }
-  printf("it %s\nrow %24s %24s %24s\n", solved ? "calls this solved:" : "gives up:", "f", "a = A f + b", "right f");
+  printf("it %s\nrow %24s %24s %24s\n", solved ? "calls this solved:" : "gives up:", "f", "a = A f + b", "@KNOWN@");
   for (int i = 0; i < ROWS; ++i) printf("%3d %24.17g %24.17g %24.17g\n", i, f[i], a[i], @RIGHT@);
 @VERDICT@}
 )";

@@ -240,7 +240,7 @@ class UnderTest(cli.TestCase):
         self.assertEqual((wrong["contacts"], wrong["minimized"]), (2, "yes"))
         self.assertRegex(wrong["problem"], r"^A = -?\d+ -?\d+, -?\d+ -?\d+; b = -?\d+ -?\d+$")
         self.assertEqual(sorted(file.name for file in out.iterdir()),
-                         ["SHA256SUMS", "failures.csv", "index.html", "smallest.csv", "solvers.csv", "solvers.txt"])
+                         [".stiction-files", "SHA256SUMS", "failures.csv", "index.html", "smallest.csv", "solvers.csv", "solvers.txt"])
         page = (out / "index.html").read_text()
         self.assertIn(wrong["problem"], page)
         self.assertNotIn("{{", page)
