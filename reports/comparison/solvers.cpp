@@ -85,7 +85,7 @@ Table SolversTable(const std::vector<Store>& stores, const std::vector<std::stri
                    const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
   Table table{"solvers", "Solvers", Columns("solver* store* law* accuracy* problems refused unjudged")};
   table.columns.insert(table.columns.begin() + 5,
-                       {"passed,of,share,low,high", "with the exact interval at 95 %"});
+                       {"passed,of,share,low,high", "with the exact interval at 95 %", false, "passed"});
   for (std::size_t i = 0; i < stores.size(); ++i) {
     const Json solver = SolverOf(stores[i].identity());
     CountsByName of = counts[i].at({"", 0});
@@ -96,8 +96,8 @@ Table SolversTable(const std::vector<Store>& stores, const std::vector<std::stri
 }
 
 Table FailuresTable(const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
-  Table table{"failures", "Failures, in a million problems", Columns("family* contacts solver* problems")};
-  table.keys = 3;
+  Table table{"failures", "Failures, in a million problems", Columns("family* solver* problems")};
+  table.keys = 2;
   const std::vector<std::string> kinds = KindColumns();
   for (const std::string& kind : kinds) {
     std::string head = kind;
@@ -112,10 +112,9 @@ Table FailuresTable(const std::vector<std::string>& names, const std::vector<Cou
       const auto found = counts[i].find(family);
       if (found == counts[i].end()) continue;
       CountsByName of = found->second;
-      const bool is_all = family.first.empty();
-      std::vector<TableCell> cells = {is_all ? kAllProblems : family.first,
-                                      is_all ? TableCell() : TableCell(family.second), names[i],
-                                      of["problems"]};
+      const std::string name =
+          family.first.empty() ? kAllProblems : fmt::format("{}, {}", family.first, family.second);
+      std::vector<TableCell> cells = {name, names[i], of["problems"]};
       for (const std::string& kind : kinds) cells.emplace_back(RateOf(of[kind], of["problems"]));
       table.Add(cells);
     }
