@@ -12,6 +12,7 @@
 #include <set>
 
 #include "cli/command_line.h"
+#include "cli/convert.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -397,21 +398,25 @@ int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   SimulationOptions options;
   options.step = StepOf(file, o.scene);
   SimulationIn<Kind> simulation(scene, options);
+  std::vector<TouchPointIn<Kind, double>> touches;
   MarksIn<Kind> marks;
   try {
     simulation.Step();
+    touches = simulation.contacts();
     marks = MarksOf(simulation);
   } catch (const SimulationError& error) {
     std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
-    for (const auto& contact : FindContacts(scene)) marks.contacts.push_back(contact.point);
+    touches = FindContacts(scene);
   }
   View view;
   view.Include(scene);
   view.AddMargin();
-  WriteText(o.output, DrawSvg(scene, view, marks, ForceScale(view, {LargestForce(marks)})));
-  const Json done = {{"written", Json::array({o.output})},
-                     {"contacts", marks.contacts.size()},
-                     {"forces", marks.forces.size()}};
+  const double newton = ForceScale(view, {LargestForce(marks)});
+  const std::string svg = DrawExplained(scene, view, touches, marks.forces, newton);
+  const std::string end = fs::path(o.output).extension();
+  WriteText(o.output, end == ".png" || end == ".pdf" ? Converted(svg, end.substr(1)) : svg);
+  const Json done = {
+      {"written", Json::array({o.output})}, {"contacts", touches.size()}, {"forces", marks.forces.size()}};
   if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }
@@ -485,9 +490,16 @@ const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](Comman
 });
 
 const ListedVerb kDrawVerb("Scenes and other programs' files", 30, [](CommandLine& program) {
-  auto [verb, o] = program.Add("draw", "A scene as an SVG, with its contacts and forces", RunDrawVerb);
+  auto [verb, o] = program.Add("draw", "A scene as a picture, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
-  verb.Option("-o,--output", o.output, "SVG to write; - is standard output").Required();
+  verb.Option("-o,--output", o.output,
+              "picture to write: NAME.png, NAME.pdf, all else SVG; - is standard output")
+      .Required()
+      .Details("PNG and PDF by rsvg-convert, of Debian's package librsvg2-bin");
+  verb.footer =
+      "Contacts by the numbers of `assemble --explain`, each with its cone of friction; forces and gravity, to "
+      "the "
+      "scale below; joints as pins.";
   verb.Prints(o.json, "a picture", "{written: written, contacts: integer, forces: integer}");
 });
 

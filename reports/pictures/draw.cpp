@@ -159,9 +159,11 @@ Html Svg(const Screen& screen, const Html& content) {
 
 template <class Kind>
 std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
-                    double newton) {
-  const Screen screen(view);
-  return Svg(screen, Bodies(scene, screen) + Marks(scene, screen, marks, newton)).markup();
+                    double newton, const Overlay& over) {
+  Screen screen(view);
+  const Html content = Bodies(scene, screen) + Marks(scene, screen, marks, newton) + over.html;
+  screen.height += over.below;
+  return Svg(screen, content).markup();
 }
 
 template <class Kind>
@@ -176,12 +178,13 @@ Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const Mark
          Html("\n");
 }
 
-#define STICTION_INSTANTIATE(Kind)                                                                       \
-  template void View::Include(const SceneIn<Kind, double>&);                                             \
-  template MarksIn<Kind> MarksOf(const SimulationIn<Kind>&);                                             \
-  template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);               \
-  template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                  \
-  template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double); \
+#define STICTION_INSTANTIATE(Kind)                                                                      \
+  template void View::Include(const SceneIn<Kind, double>&);                                            \
+  template MarksIn<Kind> MarksOf(const SimulationIn<Kind>&);                                            \
+  template FrameIn<Kind> RecordFrame(const SceneIn<Kind, double>&, double, MarksIn<Kind>);              \
+  template void SetPoses(SceneIn<Kind, double>&, const FrameIn<Kind>&);                                 \
+  template std::string DrawSvg(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, double, \
+                               const Overlay&);                                                         \
   template Html DrawInline(const SceneIn<Kind, double>&, const View&, const MarksIn<Kind>&, const std::string&)
 
 STICTION_INSTANTIATE(Plane);

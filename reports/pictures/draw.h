@@ -21,6 +21,8 @@
 namespace stiction {
 
 // scene/simulate.h
+template <class Kind, class Scalar>
+struct TouchPointIn;
 template <class Kind>
 struct AppliedForceIn;
 template <class Kind>
@@ -78,9 +80,20 @@ double LargestForce(const MarksIn<Kind>& marks) {
 // largest of a picture.
 double ForceScale(const View& view, std::vector<double> largest);
 
+// What is drawn over all else, and pixels that stand below the picture for it.
+struct Overlay {
+  Html html = {};
+  double below = 0;
+};
 template <class Kind>
 std::string DrawSvg(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
-                    double newton);
+                    double newton, const Overlay& over = {});
+// The same as a picture of its own: the number of each contact, as `assemble --explain` has it; its cone, of
+// the body that the force is shown on; joints as pins; gravity; how long a metre and a newton are.
+template <class Kind>
+std::string DrawExplained(const SceneIn<Kind, double>& scene, const View& view,
+                          const std::vector<TouchPointIn<Kind, double>>& touches,
+                          const std::vector<AppliedForceIn<Kind>>& forces, double newton);
 // The same in a page with others: with contacts alone, and no id. `label` says what is seen.
 template <class Kind>
 Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const MarksIn<Kind>& marks,
