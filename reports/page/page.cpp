@@ -206,15 +206,14 @@ std::string ResultsPage(const ReportContent& content, const std::vector<Table>& 
   }
   results +=
       FrontiersSection(content.frontiers, content.own.bests) + RungsSection(content.rungs) + FilesSection();
-  return FilledPage(
-      figures,
-      {.title = "stiction: all results of a report",
-       .heading = "All results",
-       .lead = Html("<p class=\"asked\">Every table and figure of <a href=\"index.html\">the report</a>. Findings one by one "
-                    "have <a href=\"findings.html\">a page of their own</a>.</p>"),
-       .navigation = LinksTo(PlacesOfResults(content)),
-       .found = results,
-       .how = MethodText(content)});
+  return FilledPage(figures, {.title = "stiction: all results of a report",
+                              .heading = "All results",
+                              .lead = Html("<p class=\"asked\">Every table and figure of <a "
+                                           "href=\"index.html\">the report</a>. Findings one by one "
+                                           "have <a href=\"findings.html\">a page of their own</a>.</p>"),
+                              .navigation = LinksTo(PlacesOfResults(content)),
+                              .found = results,
+                              .how = MethodText(content)});
 }
 
 std::string FindingsPage(const ReportContent& content) {
