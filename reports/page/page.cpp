@@ -159,8 +159,7 @@ bool HasFrontiers(const ReportContent& content) {
 }
 
 std::vector<std::pair<std::string, std::string>> PlacesOfResults(const ReportContent& content) {
-  std::vector<std::pair<std::string, std::string>> places;
-  if (content.units > 0) places.emplace_back("#found", "What was found");
+  std::vector<std::pair<std::string, std::string>> places = {{"#found", "What was found"}};
   if (content.units > 0 && content.Objective().empty()) {
     places.insert(places.end(), {{"#frequencies", "How often it fails"},
                                  {"#outcomes", "Outcomes"},
@@ -197,8 +196,7 @@ std::string FilledPage(const std::vector<Table>& figures, const PageParts& parts
 }
 
 std::string ResultsPage(const ReportContent& content, const std::vector<Table>& figures) {
-  Html results;
-  if (content.units > 0) results += CountedSection(content);
+  Html results = CountedSection(content);
   if (content.units > 0 && content.Objective().empty()) {
     results += FrequenciesSection(content.total) + OutcomesSection(content.total) +
                DoublesSection(content.total) + StepsSection(content.total) + MethodsSection(content) +
