@@ -247,7 +247,10 @@ void ReadFindings(const Store& store) {
   content.work = store.TotalWork();
   content.discoveries = Discoveries(content.total, findings);
   ToCsv(FindingsTable(content.discoveries));
-  Page(content, Figures(content));
+  const auto figures = Figures(content);
+  FrontPage(content, figures);
+  ResultsPage(content, figures);
+  FindingsPage(content);
 }
 
 void ReadTotal(const Store& store) {
