@@ -144,7 +144,7 @@ problem = stiction.Problem(J @ J.T, draw.integers(-9, 10, 300).astype(float), 0.
 """
 
     WRITING = {"help", "json", "fractions", "output", "html", "list", "record", "step", "svg"}
-    ELSEWHERE = {"all_policies", "all", "safe", "robust"}  # which is `ends`, or what the program alone has
+    ELSEWHERE = {"all_policies", "all", "safe", "robust", "coq"}  # which is `ends`, or what the program alone has
 
     def test_those_of_the_program_can_all_be_chosen(self):
         for verb in ("solve", "replay", "certify"):
