@@ -142,13 +142,16 @@ class AlongEdges {
     constexpr double kLoads = 1e-9;
     const Eigen::VectorXd x = Pushed(0);
     std::vector<ConeEdge> loaded;
-    std::vector<Rational> guess;
+    std::vector<double> loads;
     for (int j = 0; j < x.size(); ++j) {
       if (!edges_[j].free && !(x[j] > kLoads * x.cwiseAbs().maxCoeff())) continue;
       loaded.push_back(edges_[j]);
-      guess.push_back(Rational(x[j]));
+      loads.push_back(x[j]);
     }
     const int count = static_cast<int>(loaded.size()), rows = problem_.rows();
+    const ExactVector guess = Eigen::Map<const Eigen::VectorXd>(loads.data(), count).unaryExpr([](double load) {
+      return Rational(load);
+    });
     ExactMatrix columns(rows, count), M(count, count);
     ExactVector right(count);
     for (int j = 0; j < count; ++j) {
@@ -157,9 +160,15 @@ class AlongEdges {
     }
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j) M(i, j) = Along(loaded[i], columns.col(j));
-    const auto exact = SolveEquations(M, right, ExactVector(Eigen::Map<ExactVector>(guess.data(), count)));
-    if (!exact) return std::nullopt;
-    return Combined(loaded, Point(exact->begin(), exact->end()), rows);
+    // What the equations leave free: nothing, which leaves simple numbers, or what doubles have.
+    std::optional<ExactVector> f;
+    for (const ExactVector& free : {ExactVector(ExactVector::Zero(count)), guess}) {
+      const auto exact = SolveEquations(M, right, free);
+      if (!exact) return std::nullopt;
+      f = Combined(loaded, Point(exact->begin(), exact->end()), rows);
+      if (!FindConeViolation(problem_, *f)) break;
+    }
+    return f;
   }
 
   // Forces f that push off by a margin have A f + b in the inside of K*, and f'(A f + b) next to 0; so f + z
