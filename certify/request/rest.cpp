@@ -203,9 +203,9 @@ class AlongEdges {
   Eigen::MatrixXd E_;
 };
 
-// The beginning of what follows, where doubles lead to it.
+// What doubles propose: exact forces, which may rest, or not; or that nothing rests, which is proved then.
 struct FoundByDoubles {
-  std::optional<ExactVector> f;  // forces on some edges
+  std::optional<ExactVector> f;
   bool refuted = false;
 };
 

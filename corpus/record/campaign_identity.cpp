@@ -19,8 +19,10 @@ std::map<std::string, std::string> PartsOf(const CampaignIdentity& identity) {
   const Json definition = Json::parse(identity.definition, nullptr, false);
   if (definition.is_object()) {
     for (const auto& [key, value] : definition.items()) {
-      if (!value.is_object()) parts[key] = PlainValue(value);
-      if (!value.is_object()) continue;
+      if (!value.is_object()) {
+        parts[key] = PlainValue(value);
+        continue;
+      }
       for (const auto& [member, inner] : value.items()) parts[key + " " + member] = PlainValue(inner);
     }
   } else {
