@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/formats/fclib.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -10,11 +11,37 @@
 #include <utility>
 
 #include "corpus/formats/condense.h"
+#include "corpus/hdf5_library.h"
 #include "corpus/printable.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
 namespace {
+
+// HDF5 is loaded when it is first used: with the thirty libraries that it needs it takes longer than all else
+// until the program begins. InputError where it is not there.
+void* Hdf5Symbol(const char* name) {
+  static void* const library = dlopen(STICTION_HDF5, RTLD_NOW | RTLD_LOCAL);
+  void* const symbol = library == nullptr ? nullptr : dlsym(library, name);
+  if (symbol == nullptr) {
+    throw InputError(
+        fmt::format("{} cannot be loaded ({}); it reads and writes FCLIB files: install Debian's libhdf5-dev",
+                    STICTION_HDF5, dlerror()));
+  }
+  return symbol;
+}
+
+// A function of <hdf5.h>.
+#define HDF5(function) reinterpret_cast<decltype(&::function)>(Hdf5Symbol(#function))
+
+// A type or class of HDF5, by the variable that holds it once HDF5 has begun.
+hid_t Hdf5Id(const char* variable) {
+  STICTION_CHECK(HDF5(H5open)() >= 0, "HDF5 does not begin");
+  return *static_cast<const hid_t*>(Hdf5Symbol(variable));
+}
+
+// H5F_ACC_RDONLY and H5F_ACC_TRUNC, whose macros call HDF5.
+constexpr unsigned kReadOnly = 0, kTruncate = 2;
 
 // An HDF5 identifier that closes itself; HDF5 itself stays silent.
 class Handle {
@@ -33,7 +60,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void Silence() { HDF5(H5Eset_auto2)(H5E_DEFAULT, nullptr, nullptr); }
 
 // HDF5 wants a name, of no file that exists.
 constexpr const char* kNoFile = "/dev/null/in-memory";
@@ -41,11 +68,11 @@ constexpr const char* kNoFile = "/dev/null/in-memory";
 // A file that is never one: it begins as `text`, if there is any.
 Handle InMemory(std::string* text) {
   constexpr std::size_t kGrowth = 1 << 16;  // bytes
-  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  STICTION_CHECK(access >= 0 && H5Pset_fapl_core(access, kGrowth, false) >= 0 &&
-                     (text == nullptr || H5Pset_file_image(access, text->data(), text->size()) >= 0),
+  const hid_t access = HDF5(H5Pcreate)(Hdf5Id("H5P_CLS_FILE_ACCESS_ID_g"));
+  STICTION_CHECK(access >= 0 && HDF5(H5Pset_fapl_core)(access, kGrowth, false) >= 0 &&
+                     (text == nullptr || HDF5(H5Pset_file_image)(access, text->data(), text->size()) >= 0),
                  "HDF5 has no files in memory");
-  return {access, H5Pclose};
+  return {access, HDF5(H5Pclose)};
 }
 
 constexpr int kMost = 100'000'000;  // of anything that is counted, in a file that is not nonsense
@@ -67,7 +94,7 @@ class FclibReader {
   FclibReader(std::string text, const std::string& source)
       : source_(source),
         text_(std::move(text)),
-        file_(H5Fopen(kNoFile, H5F_ACC_RDONLY, InMemory(&text_).id()), H5Fclose) {
+        file_(HDF5(H5Fopen)(kNoFile, kReadOnly, InMemory(&text_).id()), HDF5(H5Fclose)) {
     if (!file_.valid()) throw InputError(source, "/", "no HDF5 file that can be read", "one");
   }
 
@@ -91,11 +118,12 @@ class FclibReader {
   // What the file consists of.
   std::vector<std::string> RootNames() const {
     H5G_info_t info;
-    if (H5Gget_info(file_.id(), &info) < 0) Refuse("/", "no group that can be read", "one");
+    if (HDF5(H5Gget_info)(file_.id(), &info) < 0) Refuse("/", "no group that can be read", "one");
     std::vector<std::string> names;
     for (hsize_t k = 0; k < std::min<hsize_t>(info.nlinks, kMostNames); ++k) {
       std::array<char, 200> name = {};
-      H5Lget_name_by_idx(file_.id(), "/", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size(), H5P_DEFAULT);
+      HDF5(H5Lget_name_by_idx)
+      (file_.id(), "/", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size(), H5P_DEFAULT);
       names.emplace_back(name.data());
     }
     return names;
@@ -129,7 +157,7 @@ class FclibReader {
   // Links of a path, one after the other: HDF5 asks for that.
   bool Has(const std::string& path) const {
     for (std::size_t at = path.find('/', 1);; at = path.find('/', at + 1)) {
-      if (H5Lexists(file_.id(), path.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return false;
+      if (HDF5(H5Lexists)(file_.id(), path.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return false;
       if (at == path.npos) return true;
     }
   }
@@ -141,24 +169,26 @@ class FclibReader {
     constexpr bool kInteger = std::is_same_v<Number, int>;
     const std::string expected = kInteger ? "integers" : "floating-point numbers of at most 8 bytes";
     if (!Has(path)) Refuse(path, "nothing", expected);
-    const Handle set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle set(HDF5(H5Dopen2)(file_.id(), path.c_str(), H5P_DEFAULT), HDF5(H5Dclose));
     if (!set.valid()) Refuse(path, "no data set", expected);
-    const Handle type(H5Dget_type(set.id()), H5Tclose), space(H5Dget_space(set.id()), H5Sclose);
-    if (H5Tget_class(type.id()) != (kInteger ? H5T_INTEGER : H5T_FLOAT) || H5Tget_size(type.id()) > 8) {
+    const Handle type(HDF5(H5Dget_type)(set.id()), HDF5(H5Tclose)),
+        space(HDF5(H5Dget_space)(set.id()), HDF5(H5Sclose));
+    if (HDF5(H5Tget_class)(type.id()) != (kInteger ? H5T_INTEGER : H5T_FLOAT) ||
+        HDF5(H5Tget_size)(type.id()) > 8) {
       Refuse(path, "another type", expected);
     }
-    const hssize_t count = H5Sget_simple_extent_npoints(space.id());
+    const hssize_t count = HDF5(H5Sget_simple_extent_npoints)(space.id());
     if (count < 0 || static_cast<hsize_t>(count) > most || (size >= 0 && count != size)) {
       Refuse(path, fmt::format("{} numbers", count),
              size >= 0 ? fmt::format("{}", size) : fmt::format("at most {}", most));
     }
-    if (count > 0 && H5Dget_storage_size(set.id()) == 0) {  // HDF5 would make zeros of it, however many
+    if (count > 0 && HDF5(H5Dget_storage_size)(set.id()) == 0) {  // HDF5 would make zeros of it, however many
       Refuse(path, fmt::format("{} numbers that were never written", count), expected);
     }
     Spend(path, static_cast<std::size_t>(count) * sizeof(Number));
     std::vector<Number> values(count);
-    const hid_t memory = kInteger ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
-    if (count > 0 && H5Dread(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    const hid_t memory = kInteger ? Hdf5Id("H5T_NATIVE_INT_g") : Hdf5Id("H5T_NATIVE_DOUBLE_g");
+    if (count > 0 && HDF5(H5Dread)(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
       Refuse(path, "data that cannot be read", expected);
     }
     return values;
@@ -356,17 +386,17 @@ class FclibWriter {
  public:
   explicit FclibWriter(FclibStorage storage)
       : storage_(storage),
-        file_(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, InMemory(nullptr).id()), H5Fclose) {
+        file_(HDF5(H5Fcreate)("memory", kTruncate, H5P_DEFAULT, InMemory(nullptr).id()), HDF5(H5Fclose)) {
     Require(file_.valid());
   }
 
   // The bytes of the file.
   std::string Image() const {
-    Require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
-    const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+    Require(HDF5(H5Fflush)(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
+    const ssize_t size = HDF5(H5Fget_file_image)(file_.id(), nullptr, 0);
     Require(size > 0);
     std::string image(static_cast<std::size_t>(size), '\0');
-    Require(H5Fget_file_image(file_.id(), image.data(), image.size()) == size);
+    Require(HDF5(H5Fget_file_image)(file_.id(), image.data(), image.size()) == size);
     return image;
   }
 
@@ -416,31 +446,34 @@ class FclibWriter {
   }
 
   void Group(const std::string& path) const {
-    const Handle group(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Handle group(HDF5(H5Gcreate2)(file_.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       HDF5(H5Gclose));
     Require(group.valid());
   }
 
   void Set(const std::string& path, hid_t type, hid_t memory, hsize_t size, const void* values) const {
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle space(HDF5(H5Screate_simple)(1, &size, nullptr), HDF5(H5Sclose));
     const Handle set(
-        H5Dcreate2(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-        H5Dclose);
+        HDF5(H5Dcreate2)(file_.id(), path.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        HDF5(H5Dclose));
     Require(set.valid() &&
-            (size == 0 || H5Dwrite(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0));
+            (size == 0 || HDF5(H5Dwrite)(set.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0));
   }
   void Integers(const std::string& path, const std::vector<int>& values) const {
-    Set(path, H5T_STD_I32LE, H5T_NATIVE_INT, values.size(), values.data());
+    Set(path, Hdf5Id("H5T_STD_I32LE_g"), Hdf5Id("H5T_NATIVE_INT_g"), values.size(), values.data());
   }
   void Doubles(const std::string& path, const std::vector<double>& values) const {
-    Set(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
+    Set(path, Hdf5Id("H5T_IEEE_F64LE_g"), Hdf5Id("H5T_NATIVE_DOUBLE_g"), values.size(), values.data());
   }
   void Text(const std::string& path, const std::string& text) const {
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
-    Require(H5Tset_size(type.id(), text.size() + 1) >= 0);
-    const Handle set(
-        H5Dcreate2(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-        H5Dclose);
-    Require(set.valid() && H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0);
+    const Handle type(HDF5(H5Tcopy)(Hdf5Id("H5T_C_S1_g")), HDF5(H5Tclose)),
+        space(HDF5(H5Screate)(H5S_SCALAR), HDF5(H5Sclose));
+    Require(HDF5(H5Tset_size)(type.id(), text.size() + 1) >= 0);
+    const Handle set(HDF5(H5Dcreate2)(file_.id(), path.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT,
+                                      H5P_DEFAULT),
+                     HDF5(H5Dclose));
+    Require(set.valid() &&
+            HDF5(H5Dwrite)(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0);
   }
 
   // The block `rows` x `columns` of A.

@@ -2,6 +2,7 @@
 """Import, export and survey from outside: problems there and back, refusals, and what a survey says of them."""
 
 import json
+import subprocess
 from fractions import Fraction
 
 import cli
@@ -126,6 +127,11 @@ class Formats(cli.TestCase):
 
     def survey(self, *paths, code=0):
         return self.succeeds("survey", *paths, "--json", code=code).json()
+
+    def test_hdf5_is_loaded_by_the_first_file_that_needs_it(self):
+        loaded = subprocess.run(["ldd", cli.program], capture_output=True, text=True, check=True).stdout
+        self.assertIn("libgmp", loaded)
+        self.assertNotIn("hdf5", loaded)  # with what it needs it takes longer than all else until the program begins
 
     def test_survey_tells_which_assumptions_hold_and_what_solves(self):
         entry, = self.survey(self.file("fc.dat", FRICTION))
