@@ -29,6 +29,7 @@
 #include "corpus/store/store_lock.h"
 #include "reports/text/text_report.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/adversary/parents.h"
 #include "search/generators/exponential.h"
 #include "search/summary.h"
 #include "search/testimony.h"
@@ -137,12 +138,19 @@ Campaign CampaignOf(const SearchVerb& verb) {
       }
     }
   }
-  if (!o.objective.empty()) campaign.objective = o.objective;
+  if (!o.objective.empty()) {
+    campaign.objective = o.objective;
+    campaign.optimizer = FindObjective(o.objective)->optimizer;
+  }
   if (!o.optimizer.empty()) campaign.optimizer = o.optimizer;
   if (!o.optimizer.empty() && campaign.objective.empty())
     throw InputError(
         fmt::format("--optimizer: found {} without an objective, expected --objective too", o.optimizer));
-  for (const std::string& file : o.parents) campaign.parents.push_back(CandidateOf(ReadProblem(file), file));
+  if (!o.parents.empty() && campaign.objective.empty())
+    throw InputError("--from: found parents without an objective, expected --objective too");
+  for (const std::string& source : o.parents) {
+    for (Candidate& parent : ParentsFrom(source, campaign)) campaign.parents.push_back(std::move(parent));
+  }
   if (!verb.solver.empty()) campaign.solver = SolverProcess(SolverCommand(verb.solver)).about();
   RequireConsistent(campaign);
   return campaign;
@@ -565,7 +573,10 @@ void AddCampaignOptions(Verb& verb, CampaignWords& o) {
       .OneOf(NamesOf(Objectives()))
       .Details("A unit starts from the best of earlier ones");
   verb.Option("--optimizer", o.optimizer, "how; by default evolution").OneOf(NamesOf(Optimizers()));
-  verb.Option("--from", o.parents, "problems to start from, as `problem STORE --best` writes them");
+  verb.Option("--from", o.parents, "problems to start from: files, records, STORE:FINDING, a store, a folder")
+      .Details(
+          "A planar problem that no search drew gives a problem of psd near it. Of stores and folders what "
+          "fits is taken; of integers and psd smaller problems too, side by side with others");
 }
 
 }  // namespace

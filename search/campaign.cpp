@@ -9,6 +9,7 @@
 #include "corpus/json.h"
 #include "corpus/record/fields.ipp"
 #include "search/adversary/optimizer.h"
+#include "search/adversary/parents.h"
 #include "search/algorithm_version.h"
 #include "solver/published/published_space.h"
 
@@ -164,7 +165,9 @@ const FormOf<Campaign> kObjectiveForm = {
     "text",
     [](const JsonPlace& place, Campaign& campaign) {
       campaign.objective = place.Text("the name of an objective");
-      if (FindObjective(campaign.objective) == nullptr) place.Refuse("one of " + NamesOf(Objectives()));
+      const Objective* objective = FindObjective(campaign.objective);
+      if (objective == nullptr) place.Refuse("one of " + NamesOf(Objectives()));
+      campaign.optimizer = objective->optimizer;  // until one is read
     },
     [](const Campaign& campaign) { return campaign.objective.empty() ? Json() : Json(campaign.objective); }};
 
@@ -234,26 +237,12 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   return campaign;
 }
 
-// A parent is of a task of the campaign.
 static void RequireParents(const Campaign& campaign) {
-  const auto has = [](const auto& list, const auto& value) {
-    return std::find(list.begin(), list.end(), value) != list.end();
-  };
   if (!campaign.parents.empty() && campaign.objective.empty())
     throw InputError("parents: found some without an objective, expected --objective too");
   for (const Candidate& parent : campaign.parents) {
-    if (has(campaign.generators, parent.generator) && has(campaign.contacts, parent.contacts) &&
-        parent.gravity_only == campaign.gravity_only) {
-      const int most = LargestMuPart(parent.generator);
-      const bool fits = parent.mu.numerator <= most && parent.mu.denominator <= most;
-      if (fits && (FindObjective(campaign.objective)->lowers_friction || has(campaign.palette, parent.mu)))
-        continue;
-      throw InputError(fmt::format("parents: found friction coefficient {}/{}, expected one of the campaign's",
-                                   parent.mu.numerator, parent.mu.denominator));
-    }
-    throw InputError(fmt::format("parents: found {} of {} contacts{}, expected problems of the campaign's kind",
-                                 Row(parent.generator).name, parent.contacts,
-                                 parent.gravity_only ? " under gravity only" : ""));
+    if (const std::string obstacle = ObstacleOf(parent, campaign); !obstacle.empty())
+      throw InputError("parents: " + obstacle);
   }
 }
 

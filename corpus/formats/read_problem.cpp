@@ -15,23 +15,23 @@
 #include "scene/assemble.h"
 
 namespace stiction {
-namespace {
-
-constexpr std::string_view kStoreSignature = "SQLite format 3";
-
-constexpr const char* kWhatIsRead =
-    "a problem or a scene in JSON, a Siconos .dat, an FCLIB .hdf5, or STORE:FINDING "
-    "(corpus/formats/problems.md has examples)";
-
-// ---- Findings ----
 
 bool IsStore(const std::filesystem::path& file) {
+  constexpr std::string_view kStoreSignature = "SQLite format 3";
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return false;
   std::string first(kStoreSignature.size(), ' ');
   std::ifstream(file, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
   return first == kStoreSignature;
 }
+
+namespace {
+
+constexpr const char* kWhatIsRead =
+    "a problem or a scene in JSON, a Siconos .dat, an FCLIB .hdf5, or STORE:FINDING "
+    "(corpus/formats/problems.md has examples)";
+
+// ---- Findings ----
 
 // Where the name of the store ends in STORE:FINDING, if it is that.
 std::size_t EndOfStore(const std::string& file) {

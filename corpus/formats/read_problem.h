@@ -27,6 +27,9 @@ namespace stiction {
 // rows; of factors A is not formed then (WithMatrix). `scene` of a scene's problem is that scene.
 std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file);
 
+// Whether the file is a store, or at least a database.
+bool IsStore(const std::filesystem::path& file);
+
 // What was read as sparse, as that.
 std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem);
 

@@ -130,6 +130,12 @@ double StartsOfIpopt(ExactTrial& trial) {
   return static_cast<double>(solved ? statistics.starts : options.starts + 1);
 }
 
+// Of this one continuation is the better optimizer.
+Objective Continued(Objective row) {
+  row.optimizer = "continuation";
+  return row;
+}
+
 }  // namespace
 
 std::span<const Objective> Objectives() {
@@ -147,10 +153,11 @@ std::span<const Objective> Objectives() {
              [](auto& t) { return OfSolved<&Statistics::longest_zero_run>(t); }),
       OfRuns({"give-ups", "variables that a run gives up and yet solves", "give-ups"},
              [](auto& t) { return OfSolved<&Statistics::give_ups>(t); }),
-      OfRuns({"scans", "scans for a violated condition, of a run that solves", "scans"},
-             [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); }),
-      OfRuns({"memory", "the longest chain of forces given up, each while the one before rested", "forces"},
-             [](auto& t) { return static_cast<double>(LongestMemory(t)); }),
+      Continued(OfRuns({"scans", "scans for a violated condition, of a run that solves", "scans"},
+                       [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); })),
+      Continued(
+          OfRuns({"memory", "the longest chain of forces given up, each while the one before rested", "forces"},
+                 [](auto& t) { return static_cast<double>(LongestMemory(t)); })),
       OfLoops({"period", "drives of a loop's period", "drives"},
               [](auto& t) { return static_cast<double>(t.Published().period); }),
       OfLoops({"start", "drives before a loop begins", "drives"},
@@ -184,8 +191,9 @@ std::span<const Objective> Objectives() {
         row.lowers_friction = true;
         return row;
       }(),
-      Exactly({"rounding", "error of the forces over doubles, relative to the largest: log10", "decades"},
-              [](ExactTrial& t) { return RoundingError(t); }),
+      Continued(
+          Exactly({"rounding", "error of the forces over doubles, relative to the largest: log10", "decades"},
+                  [](ExactTrial& t) { return RoundingError(t); })),
       Exactly({"policies", "different ends (outcome, start, period) over the grid of policies", "ends"},
               [](ExactTrial& t) { return DifferentEnds(t); }),
       Exactly(

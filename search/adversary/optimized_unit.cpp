@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "certify/exact/exact.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "search/adversary/parents.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"
 
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::size_t kElitesOfUnit = 8;
 constexpr std::size_t kParents = 16;
+constexpr std::size_t kSmallerParents = 2;  // of each size
 
 bool Better(const Elite& left, const Elite& right) { return right.worth < left.worth; }
 
@@ -50,6 +53,22 @@ Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit,
   finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
   finding.problem = ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))).dump();
   return finding;
+}
+
+// What an optimizer is given: what was found and what was asked for, of its size, then what is smaller, made as
+// large.
+std::vector<Candidate> StartOf(const Optimization& o, const std::vector<Candidate>& found,
+                               const std::vector<Candidate>& asked) {
+  std::vector<Candidate> start, smaller;
+  for (const auto* candidates : {&found, &asked}) {
+    for (const Candidate& candidate : *candidates) {
+      auto& list = candidate.contacts == o.like.contacts ? start : smaller;
+      const bool known = std::find(list.begin(), list.end(), candidate) != list.end();
+      if (!known && candidate.generator == o.like.generator) list.push_back(candidate);
+    }
+  }
+  for (Candidate& sum : Enlarged(smaller, o.like, o.seed)) start.push_back(std::move(sum));
+  return start;
 }
 
 }  // namespace
@@ -97,16 +116,19 @@ void Heritage::Add(std::int64_t unit, const UnitElites& elites) {
 
 std::vector<Candidate> Heritage::ParentsOf(std::int64_t unit) const {
   const Task task = TaskOf(schedule_, unit);
-  std::vector<Elite> best;
+  std::map<int, std::vector<Elite>, std::greater<>> best;  // by contacts
   for (const auto& [earlier, elites] : units_) {
     if (EpochOf(earlier, shard_) >= EpochOf(unit, shard_)) break;
     const Task other = TaskOf(schedule_, earlier);
-    if (other.generator != task.generator || other.contacts != task.contacts) continue;
-    best.insert(best.end(), elites.begin(), elites.end());
+    const bool grows = other.contacts < task.contacts && HasDirectSums(task.generator);
+    if (other.generator != task.generator || !(grows || other.contacts == task.contacts)) continue;
+    best[other.contacts].insert(best[other.contacts].end(), elites.begin(), elites.end());
   }
-  KeepBest(best, kParents);
   std::vector<Candidate> parents;
-  for (Elite& elite : best) parents.push_back(std::move(elite.candidate));
+  for (auto& [contacts, elites] : best) {
+    KeepBest(elites, contacts == task.contacts ? kParents : kSmallerParents);
+    for (Elite& elite : elites) parents.push_back(std::move(elite.candidate));
+  }
   return parents;
 }
 
@@ -117,13 +139,8 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.objective = FindObjective(campaign.objective);
   optimization.like = {task.generator, task.contacts, campaign.palette.front(), campaign.gravity_only, {}};
   optimization.palette = campaign.palette;
-  optimization.parents = parents;
-  for (const Candidate& parent : campaign.parents) {
-    const bool known = std::find(parents.begin(), parents.end(), parent) != parents.end();
-    if (!known && parent.generator == task.generator && parent.contacts == task.contacts)
-      optimization.parents.push_back(parent);
-  }
   optimization.seed = ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), 0);
+  optimization.parents = StartOf(optimization, parents, campaign.parents);
   optimization.evaluations = UnitProblems(campaign, task);
   optimization.policy = campaign.policies.front();
   optimization.limits = campaign.limits;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Units of a campaign with an objective: an optimizer's candidates in the place of random problems.
 //
-// A unit starts from the best that units of earlier epochs of its shard and its task found, so all units of an
-// epoch can run at once, and nothing but the campaign and the shard decides what comes out.
+// A unit starts from the best that units of earlier epochs of its shard found, of its task and, side by side,
+// of smaller sizes of its generator (parents.h). So all units of an epoch can run at once, and nothing but the
+// campaign and the shard decides what comes out.
 
 #ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZED_UNIT_H_
 #define STICTION_SEARCH_ADVERSARY_OPTIMIZED_UNIT_H_
@@ -43,7 +44,8 @@ class Heritage {
 
   // In any order; units of other shards are passed over.
   void Add(std::int64_t unit, const UnitElites& elites);
-  // Requires all units of this shard of earlier epochs.
+  // The best of its task, then the best of each smaller size, the largest first. Requires all units of this
+  // shard of earlier epochs.
   std::vector<Candidate> ParentsOf(std::int64_t unit) const;
 
  private:

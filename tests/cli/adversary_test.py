@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction search --objective, problem --best, minimize --as-scene, records: from a seed to a record that holds."""
 
+import contextlib
 import json
 import shutil
+import sqlite3
 import subprocess
 import sys
 import unittest
@@ -42,7 +44,7 @@ class Adversary(cli.TestCase):
 
     @unittest.skipUnless(cli.ALL, "long")
     def test_threads_and_pieces_leave_the_same_store(self):
-        options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "nlopt",
+        options = ["--objective", "period", "--generator", "psd", "--contacts", 2, "--mu", 1, "--optimizer", "continuation",
                    "--finishing", 100]
         one, two = self.folder / "one", self.folder / "two"
         self.search(one, *options, "--problems", 90000, "--threads", 1)
@@ -64,8 +66,42 @@ class Adversary(cli.TestCase):
                      self.folder / "s", says=["parents", "psd"])
         self.refuses("search", "--generator", "psd", "--from", best, "--store", self.folder / "s",
                      says=["parents", "--objective"])
-        self.refuses("search", *options, "--from", self.file("p.json", cli.REFERENCE), "--store", self.folder / "s",
-                     says=["origin", "choices"])
+        in_space = cli.ROOT / "corpus/space/ray-under-slip-literal.json"
+        self.refuses("search", *options, "--from", in_space, "--store", self.folder / "s",
+                     says=["ray-under-slip-literal", "in space", "planar"])
+
+    def test_a_search_starts_from_problems_records_findings_stores_and_folders(self):
+        loops, folder = self.folder / "loops", self.folder / "problems"
+        self.search(loops, "--generator", "psd", "integers", "--contacts", 2, "--mu", 1, "--problems", 40000,
+                    "--finishing", 0)
+        with contextlib.closing(sqlite3.connect(loops)) as db:
+            found = db.execute("SELECT signature FROM findings WHERE generator = 'psd' ORDER BY signature").fetchall()
+        options = ["--objective", "period", "--generator", "psd", "--mu", 1, "--problems", 200]
+
+        def parents(*sources, contacts=(2,)):
+            store = self.folder / f"s{len(list(self.folder.iterdir()))}"
+            best = self.search(store, *options, "--contacts", *contacts, "--from", *sources).json()["best"]
+            with contextlib.closing(sqlite3.connect(store)) as db:
+                (definition,) = db.execute("SELECT value FROM campaign WHERE key = 'definition'").fetchone()
+            return json.loads(definition)["parents"], best
+
+        finding, best = parents(f"{loops}:{found[0][0]}")
+        self.assertEqual(len(finding), 1)
+        self.assertTrue(best)  # it loops
+        of_store, _ = parents(loops)
+        self.assertEqual(len(of_store), len(found))  # those of integers do not fit
+        self.assertIn(finding[0], of_store)
+        record = cli.ROOT / "corpus/records/period-2-contacts.json"
+        folder.mkdir()
+        shutil.copy(record, folder)
+        shutil.copy(cli.ROOT / "corpus/space/ray-under-slip-literal.json", folder)
+        self.assertEqual(parents(record)[0], parents(folder)[0])
+        near, best = parents(cli.ROOT / "corpus/cycle-every-policy-mu-1.json", contacts=(3,))
+        self.assertEqual((near[0]["generator"], near[0]["contacts"]), ("psd", 2))
+        self.assertTrue(best)  # beside a third contact it loops
+        (folder / "period-2-contacts.json").unlink()
+        self.refuses("search", *options, "--contacts", 2, "--from", folder, "--store", self.folder / "s",
+                     says=["problems", "--generator"])
 
     def test_how_far_a_loop_may_move(self):
         loop = cli.ROOT / "corpus/two-contact-cycle-every-policy-period-4.json"
@@ -105,7 +141,7 @@ class Adversary(cli.TestCase):
     def test_what_cannot_be_is_refused(self):
         store = self.folder / "s"
         self.refuses("search", "--objective", "nothing", "--store", store, says=["--objective", "friction"])
-        self.refuses("search", "--optimizer", "nlopt", "--store", store, says=["--optimizer", "--objective"])
+        self.refuses("search", "--optimizer", "continuation", "--store", store, says=["--optimizer", "--objective"])
         self.refuses("search", "--gravity-only", "--generator", "psd", "--store", store, says=["psd", "bodies"])
         self.refuses("search", "--mu", "1/100", "--generator", "near-degenerate", "--store", store,
                      says=["near-degenerate", "1/100"])

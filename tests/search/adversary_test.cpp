@@ -266,7 +266,7 @@ TEST_CASE("adversary: what is learned beats what is drawn at random", "[slow]") 
   };
   CHECK(best("random", "steps") < best("evolution", "steps"));
   if (testing::Short()) return;
-  for (const char* optimizer : {"evolution", "nlopt", "continuation"}) {
+  for (const char* optimizer : {"evolution", "continuation"}) {
     CAPTURE(optimizer);
     CHECK(best("random", "pivot") < best(optimizer, "pivot"));
   }
@@ -339,7 +339,7 @@ void RequireEqualStores(const std::filesystem::path& left, const std::filesystem
 
 TEST_CASE("adversary: the same records on one thread and on three, at once and in pieces") {
   const testing::Scratch scratch;
-  for (const char* optimizer : {"evolution", "nlopt"}) {
+  for (const char* optimizer : {"evolution", "continuation"}) {
     CAPTURE(optimizer);
     const Campaign campaign = Adversarial("friction", optimizer);
     const std::string name(optimizer);
