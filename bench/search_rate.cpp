@@ -5,14 +5,20 @@
 //           exact runs of suspicions. By generator and number of contacts; of two contacts by instruction set;
 //           of a campaign that names nothing, one round of its schedule, without finishing.
 // Threads   one and two over the same units, in wall-clock time.
+// Store     time that a thread keeps the store, which one at a time may have, beside that of a unit: how many
+// cores
+//           one store keeps busy.
 // Roofline  operations of one problem, counted, beside the most that one core can do of them in the best
 //           instruction set: each kind alone, as if all else were free.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <thread>
 
 #include "bench/counted.h"
@@ -174,6 +180,50 @@ std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
   return {mix, threads};
 }
 
+// ---- The store -------------------------------------------------------------------------------
+
+// Units of a round of the schedule are added until two blocks have been closed.
+BenchTable MeasureStore(const BenchOptions& o) {
+  constexpr std::int64_t kUnits = 2 * Store::kUnitsPerBlock;
+  const Campaign campaign = DefaultMix(o);
+  const auto round = static_cast<std::int64_t>(Schedule(campaign).size());
+  progress::Begin("the store", round);
+  std::vector<UnitResult> results;
+  UnitRunner runner(campaign);
+  const double start = OwnSeconds();
+  for (std::int64_t unit = 0; unit < round; ++unit) {
+    results.push_back(runner.Run(unit));
+    progress::Done();
+  }
+  const double a_unit = (OwnSeconds() - start) / static_cast<double>(round);
+
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("stiction-bench-{}", getpid());
+  std::filesystem::create_directory(folder);
+  std::vector<double> kept;
+  {
+    Store store(folder / "store", IdentityOf(campaign));
+    for (std::int64_t unit = 0; unit < kUnits; ++unit) {
+      const UnitResult& result = results[static_cast<std::size_t>(unit % round)];
+      const double before = ReadSeconds(CLOCK_MONOTONIC);
+      store.AddUnit({}, unit, result.record, unit < round ? result.candidates : std::vector<Finding>(), "",
+                    {{}, result.time});
+      kept.push_back(ReadSeconds(CLOCK_MONOTONIC) - before);
+    }
+  }
+  std::filesystem::remove_all(folder);
+  const double mean = std::accumulate(kept.begin(), kept.end(), 0.0) / static_cast<double>(kUnits);
+  const double most = *std::max_element(kept.begin(), kept.end());
+  BenchTable table{"store", "Milliseconds of a unit of the default size, and of these with the store",
+                   Json::array()};
+  table.rows.push_back({{"a unit", 1e3 * a_unit},
+                        {"with the store, mean", 1e3 * mean},
+                        {"median", 1e3 * SpreadOf(kept).median},
+                        {"most, a block closed", 1e3 * most},
+                        {"cores that it keeps busy", a_unit / mean}});
+  return table;
+}
+
 // ---- Roofline --------------------------------------------------------------------------------
 
 // The operations of one problem of `integers` at two contacts: drawing it, the run, the errors of its forces.
@@ -229,7 +279,7 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
 int BenchSearch(const BenchOptions& o) {
   progress::Expect((o.generator ? 1 : Generators().size()) * (o.contacts.empty() ? 3 : o.contacts.size()) +
                    (o.generator ? 1 : kOrdinaryGeneratorCount) * InstructionSets().size() +
-                   (o.generator ? 0 : 4));
+                   (o.generator ? 0 : 5));
   std::vector<BenchTable> tables = {MeasureRates(o)};
   progress::Clear();
   if (!o.json) Print(tables.back());
@@ -242,6 +292,7 @@ int BenchSearch(const BenchOptions& o) {
   take(MeasureLanes(o));
   if (!o.generator) {
     for (BenchTable& table : MeasureMix(o)) take(std::move(table));
+    take(MeasureStore(o));
     take(MeasureRoofline(o));
   }
   if (o.json) {

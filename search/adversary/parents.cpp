@@ -230,7 +230,7 @@ MuChoice FrictionForPsd(const ExactProblem& problem, const std::string& source) 
 }
 
 // A number as a multiple of 2^-bits in [-1, 1).
-std::int64_t InUnits(double x, int bits) {
+std::int64_t AsMultiple(double x, int bits) {
   const std::int64_t one = std::int64_t{1} << bits;
   return std::clamp<std::int64_t>(std::llround(std::ldexp(x, bits)), -one, one - 1);
 }
@@ -255,13 +255,13 @@ Candidate NearPsd(const ExactProblem& exact, const std::string& source) {
   for (int k = rows - 1; k >= 0; --k) {
     if (k < rows - 1 && values[k] <= 1e-12 * values[rows - 1]) break;
     const Eigen::VectorXd column = std::sqrt(std::max(values[k], 0.0)) * parts.eigenvectors().col(k);
-    for (const double entry : column) blocks.J.push_back(InUnits(entry, 15));
+    for (const double entry : column) blocks.J.push_back(AsMultiple(entry, 15));
     ++blocks.columns;
   }
   const Eigen::VectorXd b = units.asDiagonal() * problem.b;
   const Eigen::VectorXd x = A.completeOrthogonalDecomposition().solve(b);
   const double largest = x.lpNorm<Eigen::Infinity>();
-  for (const double entry : x) blocks.image.push_back(InUnits(largest > 0 ? entry / largest : 0.0, 11));
+  for (const double entry : x) blocks.image.push_back(AsMultiple(largest > 0 ? entry / largest : 0.0, 11));
   candidate.choices = SequenceOf(blocks);
   return candidate;
 }

@@ -369,6 +369,9 @@ class Search(cli.TestCase):
             parts = [row[name] for name in ("generation", "doubles", "filtered", "exact", "compared", "finishing")]
             self.assertAlmostEqual(sum(parts), 1, places=6)
         self.assertEqual([row["threads"] for row in result["threads"]], [1, 2])
+        store, = result["store"]
+        self.assertTrue(0 < store["median"] <= store["most, a block closed"], store)
+        self.assertAlmostEqual(store["cores that it keeps busy"], store["a unit"] / store["with the store, mean"], places=6)
         for row in result["roofline"]:
             self.assertGreater(row["problems a second at most"], row["problems a second"])
 

@@ -84,6 +84,11 @@ def space_loops(program):
     return "\n\n".join(program.study("space-loops", "--seeds", 11, 12, 13, "--problems", program.size(10_000)))
 
 
+def space_solved(program):
+    """With a seed that nothing was tuned on."""
+    return "\n\n".join(program.study("space-solved", "--seeds", 11, "--problems", program.size(1000)))
+
+
 def sliding(program):
     return "\n\n".join(program.study("sliding", "--generator", "integers", "--problems", program.size(300_000)))
 

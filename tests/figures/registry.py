@@ -135,6 +135,9 @@ MEASUREMENTS = [
     Measurement("space-loops", "minutes", bench.space_loops,
                 "Loops of the published algorithm in space on random problems: suspected by doubles, proved by sets that "
                 "recur or by boxes, open; every proof accepted by the independent checker."),
+    Measurement("space-solved", "minutes", bench.space_solved,
+                "Whether every problem of space that has a solution is called solved over doubles, and how much larger its "
+                "forces are than what acts (amplification): jams, integers, and problems near critical loads."),
     Measurement("patches", "long", bench.patches,
                 "Failures in a million problems of ways to change what the published algorithm gives up, by "
                 "generator and contacts; solver/published/mending.md explains the columns."),

@@ -125,6 +125,16 @@ class Studies(unittest.TestCase):
             self.assertGreater(proved, 0)
             self.assertEqual(len(list(Path(folder).iterdir())), proved)
 
+    def test_space_solved(self):
+        rows, = tables("space_solved", "--contacts", 1, 3, "--problems", 15)
+        self.assertEqual([row["problems of"] for row in rows],
+                         ["`exceptional`", "`exceptional`", "`space`", "`space`", "`corpus/space/critical`"])
+        for row in rows:
+            self.assertEqual(row["problems"], "15" if row["contacts"] != "all" else "6")
+            self.assertEqual((row["solved"], row["not solved, by cause"]), (row["problems"], "none"))
+            self.assertGreaterEqual(whole(row["most"].split(".")[0]), 1)
+        self.assertGreater(whole(rows[-1]["most"]), 100_000)  # near a critical load
+
     def test_adversary(self):
         rows, = tables("adversary", "--objective", "steps", "friction", "--problems", 400)
         self.assertEqual([row["objective"] for row in rows], ["steps", "friction"])

@@ -205,7 +205,7 @@ TEST_CASE("alarms: an audit that ends otherwise than doubles said is counted as 
 TEST_CASE("alarms: forces that are wrong by more than 1e-6 are a wrong answer, run exactly and kept") {
   for (const double error : {1e-4, 1e-5, 0.5}) {
     Campaign campaign = Audited();
-    campaign.audit_every = 1000000;  // so that only suspicions are run exactly, and the first problem
+    campaign.audit_every = 1000000;  // so that only suspicions are run exactly
     std::int64_t moved = 0;
     UnitSolvers solvers;
     solvers.distort = [&](Verdict& verdict, std::span<double> f) {

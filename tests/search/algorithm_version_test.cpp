@@ -26,7 +26,7 @@ namespace {
 
 using namespace testing;
 
-constexpr int kRecordedVersion = 1, kRecordedCounts = 3;
+constexpr int kRecordedVersion = 1, kRecordedCounts = 4;
 
 [[maybe_unused]] const bool kRecorded = AddRecorded({
     {"integers", 0xe9843a6c5c02462a, 0xe66e955f691617dc, 0x72b4f5807089b919},
