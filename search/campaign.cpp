@@ -281,7 +281,8 @@ void RequireConsistent(const Campaign& campaign) {
     if (campaign.arithmetic != Arithmetic::kDouble && Row(id).InSpace())
       throw InputError(fmt::format("arithmetic: found {} for generator {}, expected double in space",
                                    Name(campaign.arithmetic), Row(id).name));
-    if (!campaign.objective.empty() && !Row(id).IsPlain())
+    const bool of_solver_in_space = !campaign.solver.name.empty() && Row(id).InSpace();
+    if (!campaign.objective.empty() && !Row(id).IsPlain() && !of_solver_in_space)
       throw InputError(fmt::format(
           "objective: found generator {}, expected one of static contacts of the plane", Row(id).name));
     for (const Policy& policy : campaign.policies) {

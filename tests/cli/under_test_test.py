@@ -204,6 +204,16 @@ class UnderTest(cli.TestCase):
         self.assertIn("failures of", self.succeeds("status", self.folder / "one").out)
         self.refuses("report", self.folder / "one", self.folder / "two", says=["optimized"])
 
+    def test_a_solver_is_made_worse_in_space(self):
+        liar = self.toy("BUG_LIES", 'LAW="coulomb"')
+        done = self.search(liar, "space", "--objective", "error", "--json", contacts=(2,), problems=200, unit=200,
+                           generator="space", finishing=0)
+        self.assertEqual(done.code, 0, done.err)
+        self.assertGreater(done.json()["best"][0]["value"], -3)
+        best = self.folder / "best.json"
+        self.succeeds("problem", self.folder / "space", "--best", "-o", best)
+        self.assertEqual(json.loads(best.read_text())["dimension"], 3)
+
     def test_a_solver_is_made_slow(self):
         done = self.search(self.toy("BUG_SLOW"), "slow", "--objective", "time", "--json", contacts=(2,), problems=200,
                            unit=200, finishing=0)

@@ -174,6 +174,11 @@ TEST_CASE("under test: a campaign names the solver, and is another with another 
   CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("expected error or time"));
   other.objective = "error";
   CHECK_NOTHROW(RequireConsistent(other));
+  other.generators = {GeneratorId::kSpace};
+  CHECK_NOTHROW(RequireConsistent(other));
+  other.generators = {GeneratorId::kBilateral};
+  CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("bilateral"));
+  other.generators = {GeneratorId::kPsd};
   other.solver = {};
   CHECK_THROWS_WITH(RequireConsistent(other), Catch::Contains("--solver"));
   Campaign sliding = campaign;
