@@ -138,8 +138,9 @@ Html MethodsSection(const ReportContent& content) {
       "methods", "Methods side by side",
       Html(
           "<p>Each was asked about problems of its own: the published algorithm ran on all, and exactly where "
-          "doubles were suspicious; complete driving got what the published algorithm did not solve, audits, "
-          "and a sample; Lemke’s method a sample of these, where solved means that no method contradicts "
+          "doubles were suspicious; complete driving got the first of each group that the published algorithm "
+          "did not solve in a unit, audits, and a sample; Lemke’s method a sample of these, where solved means "
+          "that no method contradicts "
           "another. The same problems for all are the finished findings, in the last rows: what the published "
           "algorithm makes of them exactly, whether Ipopt’s feasibility solve led to a solution, and whether a "
           "certificate says that there is one. A solution counts only if it is verified; over doubles, if its "
@@ -159,8 +160,8 @@ Html ExistenceSection(const Record& total) {
       "existence", "Existence and agreement",
       Html("<p>Every problem here, those with sliding contacts apart, has a symmetric positive semidefinite A "
            "and b in its range. So it has a solution, for every mu: a theorem, in the plane and in space. "
-           "Complete driving looks for it wherever the published algorithm does not solve, and on problems "
-           "that are audited or drawn; the solution is verified exactly:</p>\n") +
+           "Complete driving looks for it where the published algorithm does not solve, once a group in a "
+           "unit, and on problems that are audited or drawn; the solution is verified exactly:</p>\n") +
           FigurePlace("driving",
                       "Share of the paths of complete driving with folds, with descents, and with ties, by "
                       "number of contacts; lines: exact intervals at 95 %.") +
