@@ -416,6 +416,10 @@ def questions(program):
              " and ".join(count(number(cell)) for cell in complete), link("ten-billion")),
             ("published-ends", f"loops: {count(number(loops[0]))}", billion["problems"][0], link("ten-billion")),
             ("scenes", f"loops: {sum(column('scenes-by-mu', 3))}", count(sum(column("scenes-by-mu", 2))), link("scenes-by-mu")),
+            *((name, f"loops: {sum(column(name, 3))}", count(sum(column(name, 2))), link(name))
+              for name in ("at-rest", "engine-steps")),
+            ("space-solved", f"not solved: {sum(column('space-solved', 2)) - sum(column('space-solved', 3))}",
+             count(sum(column("space-solved", 2))), link("space-solved")),
             ("sliding", f"loops past a solution: {with_solution}", count(drawn), link("sliding"))]
     for question, name in (("safe-ends", "safe-loops"), ("safe-two-end", "safe-ties")):
         cells = dict(measured_rows(name))
