@@ -572,7 +572,9 @@ void AddCampaignOptions(Verb& verb, CampaignWords& o) {
   verb.Option("--objective", o.objective, "optimize instead of drawing at random: one of the objectives below")
       .OneOf(NamesOf(Objectives()))
       .Details("A unit starts from the best of earlier ones");
-  verb.Option("--optimizer", o.optimizer, "how; by default evolution").OneOf(NamesOf(Optimizers()));
+  verb.Option("--optimizer", o.optimizer,
+              "how; by default continuation for memory, scans and rounding, evolution otherwise")
+      .OneOf(NamesOf(Optimizers()));
   verb.Option("--from", o.parents, "problems to start from: files, records, STORE:FINDING, a store, a folder")
       .Details(
           "A planar problem that no search drew gives a problem of psd near it. Of stores and folders what "

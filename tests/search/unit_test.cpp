@@ -333,7 +333,7 @@ TEST_CASE("unit: one problem in so many is audited, of units that are smaller th
 
 TEST_CASE(
     "unit: complete driving solves the first of each group of a unit, and no more unless they are drawn") {
-  Campaign campaign = Small(GeneratorId::kNearDegenerate, 2, 40000);
+  Campaign campaign = Small(GeneratorId::kNearDegenerate, 4, 12000);
   campaign.audit_every = campaign.complete_every = campaign.lemke_every = campaign.enumerate_every = 1 << 30;
   const Record record = UnitRunner(campaign).Run(0).record;
   std::int64_t unsolved = 0, groups = 0;
@@ -343,8 +343,8 @@ TEST_CASE(
     ++groups;
   }
   REQUIRE(unsolved > groups);
-  CHECK(record.existence.at(2).problems == groups);
-  CHECK(record.existence.at(2).solved == groups);
+  CHECK(record.existence.at(4).problems == groups);
+  CHECK(record.existence.at(4).solved == groups);
 }
 
 TEST_CASE("unit: the double problem is the exact problem, so an audit agrees with it") {
