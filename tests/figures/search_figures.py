@@ -147,11 +147,11 @@ def loops_by_law(program, campaign, problems):
 
 
 def at_rest(program):
-    return loops_by_law(program, "at-rest", 300_000)
+    return loops_by_law(program, "at-rest", 1_000_000)
 
 
 def engine_steps(program):
-    return loops_by_law(program, "engine-steps", 60_000)
+    return loops_by_law(program, "engine-steps", 300_000)
 
 
 # ---- What doubles miss ---------------------------------------------------------------------------------------
