@@ -12,7 +12,7 @@ import tempfile
 import stiction
 import study
 
-OPTIMIZERS = ("evolution", "continuation")
+OPTIMIZERS = ("evolution", "nlopt", "continuation")
 # Objective, generator, contacts, mu, evaluations: about as long each, so what is run exactly has fewer.
 TRIALS = [("steps", "psd", 4, 1, 24000), ("steps-per-contact", "psd", 3, 1, 24000),
           ("zero-steps", "integers", 4, 1, 24000), ("zero-run", "integers", 4, 1, 24000),

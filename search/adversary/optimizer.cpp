@@ -16,9 +16,11 @@ Optimized TryRandomly(const Optimization& optimization) {
 }  // namespace
 
 std::span<const OptimizerRow> Optimizers() {
-  static constexpr std::array<OptimizerRow, 3> kRows = {{
+  static constexpr std::array<OptimizerRow, 4> kRows = {{
       {"evolution", "mutates and crosses the choices of what was found, and keeps the best of every behaviour",
        Evolve},
+      {"nlopt", "NLopt's CRS2, ESCH, Subplex and Nelder and Mead on the choices of a wide range",
+       OptimizeContinuously},
       {"continuation", "walks from a loop, or the best so far, as far as a direction improves it", Continue},
       {"random", "draws each candidate anew, to compare with", TryRandomly},
   }};

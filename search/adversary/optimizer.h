@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Optimizers: ways to look for candidates that are worse for the solver. Each is a function of what it is
 // given: the same seed, parents and number of evaluations give the same elites, as far as the machine's
-// libraries compute the same: objectives take logarithms, roots and eigenvalues from them, and
+// libraries compute the same: objectives and NLopt take logarithms, roots and eigenvalues from them, and
 // `ipopt` is Ipopt's.
 
 #ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
@@ -42,7 +42,7 @@ struct OptimizerRow {
   Optimized (*run)(const Optimization&);
 };
 
-// random, evolution, continuation.
+// random, evolution, nlopt, continuation.
 std::span<const OptimizerRow> Optimizers();
 // Null if none has this name.
 const OptimizerRow* FindOptimizer(std::string_view name);
@@ -79,8 +79,9 @@ class Attempt {
   Elites elites_;
 };
 
-// Mutants (evolution.cpp), and lines through the ranges of wide choices (continuation.cpp).
+// Mutants (evolution.cpp), and points of the ranges of wide choices (continuous.cpp, continuation.cpp).
 Optimized Evolve(const Optimization& optimization);
+Optimized OptimizeContinuously(const Optimization& optimization);
 Optimized Continue(const Optimization& optimization);
 
 // The choices of a candidate that are treated as continuous: ranges of at least kWide values.

@@ -139,7 +139,7 @@ class Studies(unittest.TestCase):
         rows, = tables("adversary", "--objective", "steps", "friction", "--problems", 400)
         self.assertEqual([row["objective"] for row in rows], ["steps", "friction"])
         self.assertGreater(float(rows[0]["best of random"]), 4)
-        for name in ("evolution", "continuation"):
+        for name in ("evolution", "nlopt", "continuation"):
             self.assertGreater(float(rows[0][f"gain of {name}"]), 0.3)
 
     def test_ratios(self):

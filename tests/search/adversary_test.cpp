@@ -266,7 +266,7 @@ TEST_CASE("adversary: what is learned beats what is drawn at random", "[slow]") 
   };
   CHECK(best("random", "steps") < best("evolution", "steps"));
   if (testing::Short()) return;
-  for (const char* optimizer : {"evolution", "continuation"}) {
+  for (const char* optimizer : {"evolution", "nlopt", "continuation"}) {
     CAPTURE(optimizer);
     CHECK(best("random", "pivot") < best(optimizer, "pivot"));
   }
