@@ -91,6 +91,9 @@ std::string Prefix(const Json& prefix) {
 std::string Forces(const Json& witness) {
   return fmt::format("Definition forces : list Q := {}.\n", Vector(witness["f"]));
 }
+std::string ForcesUpToBound(const Json& witness) {
+  return Forces(witness) + fmt::format("Definition bound : Q := {}.\n", Number(witness["bound"]));
+}
 std::string Factors(const Json& witness) {
   return fmt::format("(* A = L D L' *)\nDefinition L : list (list Q) := {}.\nDefinition D : list Q := {}.\n",
                      Matrix(witness["L"]), Vector(witness["D"]));
@@ -112,9 +115,11 @@ struct CoqClaim {
   std::string_view words;
 };
 
-constexpr std::array<CoqClaim, 4> kClaimsOfForces = {
+constexpr std::array<CoqClaim, 5> kClaimsOfForces = {
     {{"solution-exists", "solution_exists", "solution_holds", "forces", Forces,
       "there are forces that obey the law"},
+     {"coulomb-solution", "coulomb_solution_exists bound", "coulomb_solution_holds", "bound forces",
+      ForcesUpToBound, "there are forces that obey Coulomb's law up to the bound"},
      {"no-solution", "no_solution", "no_solution_holds", "prefixes", Refutation, "no forces obey the law"},
      {"psd", "positive_semidefinite", "psd_holds", "L D", Factors, "A is symmetric and positive semidefinite"},
      {"h", "hypothesis_H", "H_holds", "y", Dual,
@@ -272,9 +277,8 @@ std::string CoqText(const Json& certificate, const ExactProblem& problem, const 
   }
   for (const CoqClaim& claim : kClaimsOfForces)
     if (claim.name == name) return TextOfForces(claim, witness, problem);
-  const std::string_view hint = name == "coulomb-solution" ? ": --law baraff, in space" : "";
-  throw InputError(fmt::format("{}: found a certificate of the claim {}, expected with --coq one of {}{}",
-                               source, name, fmt::join(ClaimsForCoq(), ", "), hint));
+  throw InputError(fmt::format("{}: found a certificate of the claim {}, expected with --coq one of {}", source,
+                               name, fmt::join(ClaimsForCoq(), ", ")));
 }
 
 }  // namespace stiction

@@ -110,6 +110,8 @@ THEOREMS = [
      "At mu = 1 the reading `paper` loops at condition numbers as near as one likes to 3 + 2 sqrt(2)."),
     ("claims.Claims.solution_holds", None, {},
      "Plane and space, contacts of every kind: forces that Coq's check takes are a solution."),
+    ("claims.Claims.coulomb_solution_holds", None, {},
+     "Space: forces that it takes obey Coulomb's law up to a bound."),
     ("claims.Claims.no_solution_holds", None, {},
      "Farkas vectors that it takes refute every solution, over any ordered field."),
     ("claims.Claims.psd_holds", None, {},
@@ -117,7 +119,9 @@ THEOREMS = [
     ("claims.Claims.H_holds", None, {},
      "A vector y that it takes: (H) holds for b."),
     ("claims.Tests.planar_law", None, {},
-     "The law of these claims is, at a static contact of the plane, that of existence/Law.v."),
+     "The law of these claims is, at a static contact of the plane, that of existence/Law.v; ..."),
+    ("claims.Tests.coulomb_law", None, {},
+     "... in space, up to the bound 1, it is that friction is at its limit, opposite to the acceleration of slip."),
 ]
 FAMILY = ("loops.FamilyAll.loops_near_K_under_every_policy", "loops.Statement.every_policy_loops_near_K", {},
           "So does every policy.")

@@ -62,12 +62,16 @@ class Files(unittest.TestCase):
                    "loops_under_policies policies 4 the_problem", "(1, (3, 4))]",
                    "[Policy lowest restart lazy unfiled first drop_contact rescan by_sets kept]")
 
-    def test_in_space_it_is_the_law_of_the_paper(self):
-        self.holds(of_corpus("space/three-sliding-contacts", "--law", "baraff", "--coq"), "Problem 3\n")
-        done = of_corpus("space/three-sliding-contacts", "--coq")
+    def test_in_space_both_laws_have_a_theorem(self):
+        name = "space/three-sliding-contacts"
+        self.holds(of_corpus(name, "--law", "baraff", "--coq"), "Problem 3\n", "solution_exists the_problem")
+        bound = json.loads(of_corpus(name).stdout)["witness"]["bound"].replace("/", " # ")
+        self.holds(of_corpus(name, "--coq"), f"Definition bound : Q := {bound}.",
+                   "Theorem the_claim : coulomb_solution_exists bound the_problem.")
+        done = of_corpus(name, "--claim", "coulomb-exact", "--coq")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("coulomb-solution, expected with --coq one of solution-exists, no-solution, psd, h, "
-                      "counterexample: --law baraff", " ".join(done.stderr.split()))
+        self.assertIn("coulomb-exact, expected with --coq one of solution-exists, coulomb-solution, no-solution, psd, h, "
+                      "counterexample", " ".join(done.stderr.split()))
 
     def test_what_coq_has_no_theorem_for_is_refused(self):
         loop = of_corpus("three-contact-cycle-with-a-frictionless-one", "--claim", "counterexample", "--coq")

@@ -203,18 +203,18 @@ Definition solves c fN fF aN aF := match c with
         qzero aF || Qeq_bool (qdot fF fF) (limit * limit)]
   | Sliding mu slip => qdoes_not_sink fN aN && qsame fF (qscale (- (mu * fN)) slip)
   end.
+Lemma sink (R : realFieldType) xN yN : qdoes_not_sink xN yN -> does_not_sink (of_Q R xN) (of_Q R yN).
+Proof. by case/and3P => /(@ge0_real R) h1 /(@ge0_real R) h2 /(@eq0_real R); rewrite of_QM; split. Qed.
 Lemma solves_sound (R : realFieldType) c fN fF aN aF :
   solves c fN fF aN aF -> law c (of_Q R fN) (real R fF) (of_Q R aN) (real R aF).
 Proof.
-have sink xN yN : qdoes_not_sink xN yN -> does_not_sink (of_Q R xN) (of_Q R yN).
-  by case/and3P => /(@ge0_real R) h1 /(@ge0_real R) h2 /(@eq0_real R); rewrite of_QM; split.
 case: c => [|| mu | mu slip] /=.
 - exact: eq0_real.
 - exact: sink.
-- case/and4P => /sink h1 /(@le_real R) h2 /(@le0_real R) h3 h4; rewrite real_dot in h3.
+- case/and4P => /(@sink R) h1 /(@le_real R) h2 /(@le0_real R) h3 h4; rewrite real_dot in h3.
   rewrite real_dot !of_QM in h2; split=> //.
   case/orP: h4 => [/(@real_zero R) z|/(@eq_real R) e]; [by left | by right; rewrite -real_dot e !of_QM].
-- case/andP => /sink h1 /(@real_same R) ->; split=> //; rewrite real_scale; apply: eq_map => u.
+- case/andP => /(@sink R) h1 /(@real_same R) ->; split=> //; rewrite real_scale; apply: eq_map => u.
   by rewrite of_QN of_QM mulNr.
 Qed.
 Definition check_solution p f :=
@@ -225,6 +225,33 @@ Proof.
 case/and3P => w /eqP s h; split; first exact: check_well_formed_sound.
 move=> R; exists (real R f); split; first by rewrite size_real.
 rewrite -real_times -real_plus; apply: all_contacts_sound h; exact: solves_sound.
+Qed.
+
+(* ---- coulomb-solution ---- *)
+
+Definition solves_up_to k c fN fF aN aF := match c with
+  | Static mu => let limit := (mu * fN)%coq_Q in let least := (k * limit)%coq_Q in let power := qdot fF aF in
+    [&& qdoes_not_sink fN aN, Qle_bool (qdot fF fF) (limit * limit), Qle_bool power 0 &
+        Qle_bool (least * least * qdot aF aF) (power * power)]
+  | _ => solves c fN fF aN aF
+  end.
+Lemma solves_up_to_sound (R : realFieldType) k c fN fF aN aF :
+  solves_up_to k c fN fF aN aF -> coulomb_up_to k c (of_Q R fN) (real R fF) (of_Q R aN) (real R aF).
+Proof.
+case: c => [|| mu | mu slip] /=; [exact: eq0_real | exact: sink | | exact: (@solves_sound R (Sliding mu slip))].
+case/and4P => /(@sink R) h1 /(@le_real R) h2 /(@le0_real R) h3 /(@le_real R) h4.
+by rewrite real_dot !of_QM in h2; rewrite real_dot in h3; rewrite !of_QM !real_dot in h4; split.
+Qed.
+Definition check_coulomb p k f :=
+  [&& check_well_formed p, dimension p == 3%N, ~~ Qle_bool k 0, Qle_bool k 1, size f == rows p &
+      all_contacts (dimension p) (solves_up_to k) (contacts p) f (qplus (qtimes (A p) f) (b p))].
+Theorem coulomb_solution_holds p k f : check_coulomb p k f -> coulomb_solution_exists k p.
+Proof.
+case/and4P => w /eqP d k0 /and3P [k1 /eqP s h]; split=> //; first exact: check_well_formed_sound.
+  split; last exact/Qle_bool_iff.
+  by case: (Qlt_le_dec 0 k) => // /Qle_bool_iff e; rewrite e in k0.
+move=> R; exists (real R f); split; first by rewrite size_real.
+rewrite -real_times -real_plus; apply: all_contacts_sound h; exact: solves_up_to_sound.
 Qed.
 
 (* ---- psd: A = L D L', D >= 0 ---- *)

@@ -73,13 +73,22 @@ Definition law c (fN : R) (fF : seq R) (aN : R) (aF : seq R) : Prop := match c w
         is_zero aF \/ dot fF fF = limit * limit]
   | Sliding mu slip => does_not_sink fN aN /\ fF = [seq - (of_Q R mu * fN * u) | u <- real R slip]
   end.
+(* In space: Coulomb's law up to k. Where a contact slips, abs(fF), times the cosine of the angle between fF and -aF, is
+   at least k mu fN. With k = 1 friction is at its limit, opposite to aF: the law itself. *)
+Definition coulomb_up_to (k : Q) c (fN : R) (fF : seq R) (aN : R) (aF : seq R) : Prop := match c with
+  | Static mu => let limit := of_Q R mu * fN in let least := of_Q R k * limit in
+    [/\ does_not_sink fN aN, dot fF fF <= limit * limit, dot fF aF <= 0 &
+        least * least * dot aF aF <= dot fF aF * dot fF aF]
+  | _ => law c fN fF aN aF
+  end.
 
 Variable p : problem.
 Notation A := (real_matrix R (A p)).
 Notation b := (real R (b p)).
 
-Definition solution (f : seq R) :=
+Definition obey (law : contact -> R -> seq R -> R -> seq R -> Prop) (f : seq R) :=
   size f = rows p /\ at_every_contact (dimension p) law (contacts p) f (plus (times A f) b).
+Definition solution := obey law.
 
 (* K: the forces that friction allows *)
 Definition in_cone c (vN : R) (vF : seq R) : Prop := match c with
@@ -94,6 +103,9 @@ End Laws.
 (* ---- The claims ---- *)
 
 Definition solution_exists p := well_formed p /\ forall R : realFieldType, exists f : seq R, solution p f.
+
+Definition coulomb_solution_exists k p := [/\ well_formed p, dimension p = 3%N, (0 < k <= 1)%coq_Q &
+  forall R : realFieldType, exists f : seq R, obey p (coulomb_up_to k) f].
 
 Definition no_solution p := well_formed p /\ forall (R : realFieldType) (f : seq R), ~ solution p f.
 
