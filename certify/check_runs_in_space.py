@@ -251,6 +251,7 @@ class Run:
         self.turned = [False] * contacts  # away: is to be driven anew against its acceleration
         self.on_circle = [False] * contacts  # abs(fF) = mu fN is known, though the contact is not in NCF
         self.line, self.trail = [None] * contacts, None
+        self.known = set()  # which of the two has told a zero
         self.last, self.drives = None, 0
 
     def copy(self):
@@ -296,6 +297,7 @@ class Run:
         """A run in the sets of this one, with other coordinates: the sets decide all other forces."""
         other = Run(self.space, self.policy, on_step)
         other.N, other.F, other.turned, other.last = list(self.N), list(self.F), list(self.turned), self.last
+        other.known = self.known
         f = [ZERO] * len(self.f)
         for (row, i), x, chart in zip(self.memory(), values, charts):
             if row is None:
@@ -584,10 +586,12 @@ class Run:
         if not one_line and (redirect or vanishes(aF)):
             yield from self.reached(-inner(self.d[i], aF), inner(self.d[i], dA), rank)
             return
-        if not one_line:
-            aside = aF[0] * dA[1] - aF[1] * dA[0]
-            if not aside.is_zero() and sign(aside) != 0:
-                return
+        aside = aF[0] * dA[1] - aF[1] * dA[0]
+        if one_line:
+            if not redirect and aside.low <= 0 <= aside.high and not aside.is_zero():
+                self.known.add("line")
+        elif not aside.is_zero() and sign(aside) != 0:
+            return
         grows = not redirect or sign(inner(self.d[i], dA)) > 0
         if grows and sign(inner(aF, dA)) < 0:
             yield from self.reached(-inner(aF, dA), inner(dA, dA), rank)
@@ -619,6 +623,7 @@ class Run:
             trail = self.trail = {**trail, "name": name} if trail["name"] in (None, name) else None
         if trail and (limiting, k, into) == ("N", trail["contact"], "C"):
             self.f, self.a, self.line, self.trail = list(trail["f"]), list(trail["a"]), list(trail["line"]), None
+            self.known.add("trail")
         else:
             for i in range(len(self.N)):
                 begins = self.F[i] == "NCF" and vanishes(self.tangent(self.a, i))
@@ -647,6 +652,8 @@ class Run:
             elif axis_name in ("x", "y"):
                 self.a[row + 1 + (axis_name == "y")] = ZERO
         elif self.policy["slip"] == "literal" or self.line[i] == name:
+            if self.policy["slip"] == "redirect" and not vanishes(self.tangent(self.a, i)):
+                self.known.add("line")
             self.a[row + 1] = self.a[row + 2] = ZERO
         for k, at in enumerate(self.space.first):
             if self.F[k] == "NCF" or (k == i and into == "NCF"):
@@ -816,4 +823,5 @@ def check_loop(problem, witness, policy):
         need(False, "$.witness.bits", bits, f"more bits: {unsure} is not told after {run.on_step.done} steps")
     except End as end:
         need(False, "$.witness.word", str(end), "a run that does not end")
-    return f"in space, {how}, start {start}, period {period}"
+    by = f", by the {' and the '.join(sorted(run.known))}" if run.known else ""
+    return f"in space, {how}, start {start}, period {period}{by}"

@@ -20,6 +20,7 @@
 //             happen (readings.md, 8); a drive that does not end would spend its budget.
 // Intervals   Comparisons throw where a sign is unsure; callers catch it. What a set guarantees (a = 0 in C
 //             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
+//             Two zeros are known from where the run has been: the line and the trail (readings.md, 8).
 
 #ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
 #define STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
@@ -120,6 +121,15 @@ class PublishedInSpace {
   struct Frame {
     Tangent p = {Scalar(1), Scalar(0)}, q = {Scalar(0), Scalar(1)};
   };
+  // Of equal names the directions of f are equal, up to their sign; empty where a matrix is singular.
+  using DirectionName = std::vector<int>;
+  // The state at which a normal left C, f and a in the frames of now.
+  struct Trail {
+    int normal = -1;     // none
+    DirectionName name;  // along which alone f has moved since; empty: it has not
+    Vector f, a;
+    std::vector<DirectionName> lines;
+  };
   struct Limit {
     bool exists = false;
     Scalar s = Scalar(0);
@@ -180,6 +190,11 @@ class PublishedInSpace {
   void RecordDirection(int driven, DriveGoal goal);
   void RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up);
 
+  // Where the run has been: enclosures.
+  DirectionName NameOfDirection(int driven) const;
+  bool IsOnLine(int contact) const;
+  bool ReturnsAlongTrail(const Step<Scalar>& step, bool zero);
+
   // Frames. Friction of a contact is in rows `row`, `row` + 1 of state_, along p and q.
   void Turn(int contact, const Tangent& p);
   void Reverse(int row);
@@ -207,6 +222,13 @@ class PublishedInSpace {
   std::vector<char> given_up_by_turning_;  // by contact: is to be driven anew against its acceleration
   std::vector<char> on_circle_;            // by contact: abs(fF) = mu fN is known, though it is in CF, or rests
   std::vector<int> recorded_anew_;         // by contact: how often a direction was recorded
+  static constexpr int kProblemAxes = 0;
+  std::vector<int> axes_;  // by contact: of equal numbers the axes are equal, up to their signs
+  int turned_axes_ = 0;
+  DirectionName direction_name_;
+  // By contact: since aF was zero in NCF, f has moved along this direction alone; empty: along others.
+  std::vector<DirectionName> lines_;
+  Trail trail_;
   PublishedSpaceVerdict verdict_;
   bool ended_ = false;
   int last_driven_contact_ = -1;

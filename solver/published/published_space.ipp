@@ -62,6 +62,10 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   given_up_by_turning_.assign(problem.contacts.size(), false);
   on_circle_.assign(problem.contacts.size(), false);
   recorded_anew_.assign(problem.contacts.size(), 0);
+  axes_.assign(problem.contacts.size(), kProblemAxes);
+  turned_axes_ = 0;
+  lines_.assign(problem.contacts.size(), {});
+  trail_ = {};
   verdict_ = {};
   ended_ = false;
   last_driven_contact_ = -1;
@@ -227,6 +231,8 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     const auto status = direction_.Solve(turned_, layout_, state_.sets, driven, sign, scale_);
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
+    if constexpr (kEncloses<Scalar>)
+      direction_name_ = status == System::Status::kRegular ? NameOfDirection(driven) : DirectionName();
     if constexpr (kIsExact<Scalar>) {
       OuterState none = {}, &from = outer_states_.empty() ? none : outer_states_.back();
       from.regular |= status == System::Status::kRegular && from.sets == state_.sets;
@@ -266,15 +272,19 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
 // f += s df, a += s da; then the limit that was reached is met exactly, and so is abs(fF) = mu fN in NCF.
 template <class Scalar>
 void PublishedInSpace<Scalar>::Advance(const Step<Scalar>& step, bool zero) {
-  for (int row = 0; row < problem_->rows(); ++row) {
-    if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
-    if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
+  if (!ReturnsAlongTrail(step, zero)) {
+    for (int row = 0; row < problem_->rows(); ++row) {
+      if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
+      if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
+    }
   }
   if (!zero) LeaveCircles();
   MeetLimit(step.limiting, step.wants);
   for (int row = 0; row < problem_->rows(); ++row) {
     if (state_.sets[row] == IndexSet::kAtUpper) state_.f[row] = Bound(row);
   }
+  if (kEncloses<Scalar> && step.wants == IndexSet::kSeparating)
+    trail_ = {step.limiting, {}, state_.f, state_.a, lines_};
 }
 
 // Enclosures know it of forces that rest, too.
@@ -296,7 +306,8 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
     case IndexSet::kClamped:
     case IndexSet::kSticking:
       state_.a[row] = Scalar(0);
-      if (state_.sets[row] == IndexSet::kAtUpper && options_.policy.slip == Slip::kLiteral)
+      if (state_.sets[row] == IndexSet::kAtUpper &&
+          (options_.policy.slip == Slip::kLiteral || IsOnLine(layout_.ContactOf(row))))
         state_.a[row + 1] = Scalar(0);
       break;
     case IndexSet::kAtUpper:
@@ -478,11 +489,14 @@ void PublishedInSpace<Scalar>::LimitSlipping(Limit& limit, int row) const {
   const Vector& a = state_.a;
   const Vector& da = direction_.da();
   const bool rests = IsSurelyZero(a[row]) && IsSurelyZero(a[row + 1]);
-  if (rests || options_.policy.slip == Slip::kRedirect)
+  const bool on_line = !rests && IsOnLine(layout_.ContactOf(row));
+  const bool redirects = options_.policy.slip == Slip::kRedirect;
+  if (rests || (redirects && !on_line))
     return Offer(limit, Scalar(-a[row]), da[row], IndexSet::kSticking, scale_.rate);
+  if (redirects && (IsSurelyZero(da[row]) || Sign(da[row]) <= 0)) return;
   const Scalar square = Square(da, row);
   const Scalar aside = a[row] * da[row + 1] - a[row + 1] * da[row];
-  if (!IsSurelyZero(aside) && Sign(aside, Scalar(scale_.acceleration * sqrt(square))) != 0) return;
+  if (!on_line && !IsSurelyZero(aside) && Sign(aside, Scalar(scale_.acceleration * sqrt(square))) != 0) return;
   const Scalar approach = -(a[row] * da[row] + a[row + 1] * da[row + 1]);
   if (IsSurelyZero(approach) || Sign(approach) <= 0) return;
   Offer(limit, approach, square, IndexSet::kSticking, Scalar(scale_.rate * scale_.rate));
@@ -496,12 +510,14 @@ void PublishedInSpace<Scalar>::Turn(int contact, const Tangent& p) {
   const int row = layout_.NormalRowOf(contact) + 1;
   Frame& frame = frames_[contact];
   const Tangent q = {Scalar(-p[1]), p[0]};
-  const Tangent f = FrictionInProblemAxes(state_.f, row), a = FrictionInProblemAxes(state_.a, row);
+  for (Vector* values : {&state_.f, &state_.a, &trail_.f, &trail_.a}) {
+    if (values->size() == 0) continue;
+    const Tangent x = FrictionInProblemAxes(*values, row);
+    (*values)[row] = p[0] * x[0] + p[1] * x[1];
+    (*values)[row + 1] = q[0] * x[0] + q[1] * x[1];
+  }
   frame = {p, q};
-  state_.f[row] = p[0] * f[0] + p[1] * f[1];
-  state_.f[row + 1] = q[0] * f[0] + q[1] * f[1];
-  state_.a[row] = p[0] * a[0] + p[1] * a[1];
-  state_.a[row + 1] = q[0] * a[0] + q[1] * a[1];
+  axes_[contact] = IsSurelyZero(p[1]) ? kProblemAxes : ++turned_axes_;
   Rebuild(row);
 }
 
@@ -510,8 +526,9 @@ void PublishedInSpace<Scalar>::Reverse(int row) {
   Frame& frame = frames_[layout_.ContactOf(row)];
   Tangent& axis = row == FrictionOf(row) ? frame.p : frame.q;
   axis = {Scalar(-axis[0]), Scalar(-axis[1])};
-  state_.f[row] = -state_.f[row];
-  state_.a[row] = -state_.a[row];
+  for (Vector* values : {&state_.f, &state_.a, &trail_.f, &trail_.a}) {
+    if (values->size() > 0) (*values)[row] = -(*values)[row];
+  }
   Rebuild(FrictionOf(row));
 }
 
@@ -591,6 +608,52 @@ Scalar PublishedInSpace<Scalar>::Square(const Vector& values, int row) const {
 template <class Scalar>
 Scalar PublishedInSpace<Scalar>::Bound(int row) const {
   return problem_->contacts[layout_.ContactOf(row)].mu * state_.f[row - 1];
+}
+
+// ---- Where the run has been -------------------------------------------------------------------
+
+// All that the force direction depends on; an axis up to its sign.
+template <class Scalar>
+auto PublishedInSpace<Scalar>::NameOfDirection(int driven) const -> DirectionName {
+  DirectionName name = {driven};
+  if (!layout_.IsNormal(driven)) name.push_back(axes_[layout_.ContactOf(driven)]);
+  for (const IndexSet set : state_.sets) name.push_back(static_cast<int>(set));
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (state_.sets[row] == IndexSet::kAtUpper) name.push_back(recorded_anew_[layout_.ContactOf(row)]);
+  }
+  return name;
+}
+
+// Whether aF of a contact in NCF is a multiple of its change.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::IsOnLine(int contact) const {
+  return kEncloses<Scalar> && !direction_name_.empty() && lines_[contact] == direction_name_;
+}
+
+// Before a step. Whether it leads back to where a normal left C: there aN was zero, it has changed along the
+// one direction since, and is zero again. Then f and a are what they were.
+template <class Scalar>
+bool PublishedInSpace<Scalar>::ReturnsAlongTrail(const Step<Scalar>& step, bool zero) {
+  if (!kEncloses<Scalar> || zero) return false;
+  if (trail_.normal >= 0) {
+    if (trail_.name.empty()) trail_.name = direction_name_;
+    if (trail_.name.empty() || trail_.name != direction_name_) trail_ = {};
+  }
+  if (trail_.normal >= 0 && trail_.normal == step.limiting && step.wants == IndexSet::kClamped) {
+    state_.f = trail_.f;
+    state_.a = trail_.a;
+    lines_ = trail_.lines;
+    trail_ = {};
+    return true;
+  }
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact) + 1;
+    const bool slips = layout_.HasFriction(row - 1) && state_.sets[row] == IndexSet::kAtUpper;
+    const bool rests = slips && IsSurelyZero(state_.a[row]) && IsSurelyZero(state_.a[row + 1]);
+    const bool stays = slips && lines_[contact] == direction_name_;
+    lines_[contact] = rests || stays ? direction_name_ : DirectionName();
+  }
+  return false;
 }
 
 // ---- A state of the main loop -----------------------------------------------------------------

@@ -48,6 +48,19 @@ ExactProblem OfBoxes() {
                      {-1, 2, -2, 1, 2, -3});
 }
 
+// Literally read, it never leaves a box, as is known from lines along which f has moved before.
+ExactProblem OfLines() {
+  ExactProblem problem = TwoContacts({{11, -5, -1, -6, 3, 5},
+                                      {-5, 21, 7, 12, 3, -3},
+                                      {-1, 7, 16, 6, 0, -2},
+                                      {-6, 12, 6, 13, 4, -6},
+                                      {3, 3, 0, 4, 12, 2},
+                                      {5, -3, -2, -6, 2, 6}},
+                                     {-1, 4, 2, 0, 4, 3});
+  for (auto& contact : problem.contacts) contact.mu = 1;
+  return problem;
+}
+
 Policy WithSlip(Slip slip) {
   Policy policy;
   policy.slip = slip;
@@ -77,6 +90,17 @@ TEST_CASE("loops in space: proved by sets and by boxes, under both slips") {
       CHECK(run.period == loop.period);
     }
   }
+}
+
+TEST_CASE("loops in space: what moved along a line comes back exactly") {
+  const Policy literal = WithSlip(Slip::kLiteral);
+  LoopInSpace loop = Proof(OfLines(), literal);
+  CHECK(FaultyPlace(OfLines(), literal, loop).empty());
+  ExactProblem other = OfLines();
+  other.A(1, 4) += Rational(1, 1000);
+  CHECK_FALSE(FaultyPlace(other, literal, loop).empty());
+  loop.radii[0] = 1000;
+  CHECK_FALSE(FaultyPlace(OfLines(), literal, loop).empty());
 }
 
 TEST_CASE("loops in space: a proof that is altered has a fault") {
