@@ -73,6 +73,33 @@ long FloorLog2(const Integer& numerator, const Integer& denominator) {
   return below ? e - 1 : e;
 }
 
+#ifdef STICTION_BOOST_RATIONALS
+std::optional<double> SoonerToDouble(const Rational&) { return std::nullopt; }
+#else
+// The same for the usual number, in a tenth of the time: what the library truncates it to, or the next double,
+// as the middle between them tells. Empty near the ends of the range, and for the middle itself.
+std::optional<double> SoonerToDouble(const Rational& x) {
+  const double below = std::abs(x.get_d());
+  if (!(below >= 0x1p-900 && below <= 0x1p900)) return std::nullopt;
+  int exponent;  // below = digits 2^exponent, digits of 53 bits; the middle is (2 digits + 1) 2^(exponent - 1)
+  const auto digits = static_cast<unsigned long>(std::ldexp(std::frexp(below, &exponent), 53));
+  exponent -= 54;
+  thread_local Integer middle, numerator;
+  mpz_mul_ui(middle.get_mpz_t(), x.get_den_mpz_t(), 2 * digits + 1);
+  mpz_srcptr compared = x.get_num_mpz_t();
+  if (exponent >= 0) {
+    middle <<= exponent;
+  } else {
+    mpz_mul_2exp(numerator.get_mpz_t(), compared, -exponent);
+    compared = numerator.get_mpz_t();
+  }
+  const int order = mpz_cmpabs(compared, middle.get_mpz_t());
+  if (order == 0) return std::nullopt;
+  const double nearest = order < 0 ? below : std::ldexp(static_cast<double>(digits + 1), exponent + 1);
+  return Sign(x) < 0 ? -nearest : nearest;
+}
+#endif
+
 // numerator / denominator rounded to the nearest integer, to even on ties. Requires numbers >= 0.
 Integer RoundedQuotient(const Integer& numerator, const Integer& denominator) {
   Integer quotient = numerator / denominator;
@@ -118,6 +145,7 @@ std::string ToString(const Rational& x) { return TextOf(x); }
 // it once, over integers: right for subnormals too, and in any rounding mode of the processor.
 double ToDouble(const Rational& x) {
   if (Sign(x) == 0) return 0;
+  if (const auto sooner = SoonerToDouble(x)) return *sooner;
   const Integer numerator = abs(Fractions<Rational>::Numerator(x)),
                 denominator = Fractions<Rational>::Denominator(x);
   const long last_bit = std::max(FloorLog2(numerator, denominator) - 52, -1074L);

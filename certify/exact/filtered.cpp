@@ -3,12 +3,14 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/enclosed_remainder.h"
 #include "certify/exact/exact.h"
+#include "certify/exact/inexact.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/wide_ball.h"
 #include "solver/complete/complete.ipp"
@@ -152,20 +154,31 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions&
 
 namespace {
 
-// The mode of a finished contact; contacts that are neither frictionless nor static have left.
-Mode ModeOf(Cell cell) {
+// The mode of a cell by its name (solver/complete/cells.h).
+Mode ModeNamed(char cell) {
   switch (cell) {
-    case Cell::kBreak:
+    case 'B':
       return Mode::kBreak;
-    case Cell::kStick:
+    case 'S':
       return Mode::kStick;
-    case Cell::kUpper:
+    case '+':
       return Mode::kSlipMinus;  // fF = mu fN
-    case Cell::kLower:
+    case '-':
       return Mode::kSlipPlus;
     default:
       return Mode::kTouch;
   }
+}
+
+// The modes of the cells that complete driving names, a letter each; empty where it names none.
+std::optional<ModeWord> WordNamed(const ExactProblem& problem, std::string_view cells) {
+  if (cells.size() != problem.contacts.size()) return std::nullopt;
+  ModeWord word;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool is_held = problem.contacts[i].kind == ContactKind::kBilateral;
+    word.push_back(is_held ? Mode::kHold : ModeNamed(cells[i]));
+  }
+  return word;
 }
 
 // Empty where a sign is unsure, or the last word has no solution that is verified.
@@ -182,12 +195,11 @@ std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits
     return std::nullopt;
   }
   if (!answer.Solved()) return std::nullopt;
-  ModeWord word;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) word.push_back(ModeOf(driving.CellOf(i)));
-  auto f = SolveWord(problem, word, std::vector<Rational>(problem.rows(), 0));
-  if (!f) return std::nullopt;
-  answer.f = *std::move(f);
   answer.word = driving.Word();
+  auto solution =
+      SolveWord(problem, *WordNamed(problem, answer.word), std::vector<Rational>(problem.rows(), 0));
+  if (!solution) return std::nullopt;
+  answer.f = std::move(solution->f);
   return answer;
 }
 
@@ -215,6 +227,74 @@ ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limit
   answer->method = "complete";
   answer->rung = rung;
   return *std::move(answer);
+}
+
+// ---- What doubles end in ---------------------------------------------------------------------------
+
+namespace {
+
+// The middle of what is enclosed, judged; empty where it is too far from the law to be told as a solution.
+std::optional<InexactAnswer> TellEnclosed(const ContactProblem<double>& rounded,
+                                          const EnclosedSolution& solution, double bound,
+                                          InexactAnswer answer) {
+  answer.f = MiddleOf(solution.f);
+  JudgeAnswer(rounded, bound, answer);
+  if (!answer.Solved()) return std::nullopt;
+  answer.a = MiddleOf(solution.a);
+  answer.f_enclosed = EndsOf(solution.f);
+  answer.a_enclosed = EndsOf(solution.a);
+  answer.arithmetic = Arithmetic::kFiltered;
+  answer.rung = Rung::kDouble;
+  return answer;
+}
+
+ExactAnswer TellExactly(const InexactAnswer& run, ExactVector f, ExactVector a, const std::string& word) {
+  ExactAnswer answer;
+  answer.outcome = Outcome::kSolved;
+  answer.method = run.method;
+  answer.counters = run.counters;
+  answer.f = std::move(f);
+  answer.a = std::move(a);
+  answer.first_f = ExactVector::Constant(answer.f.size(), Rational(0));
+  answer.word = word;
+  answer.arithmetic = Arithmetic::kFiltered;
+  answer.rung = Rung::kExact;
+  return answer;
+}
+
+}  // namespace
+
+CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem,
+                               const SolveOptions& options) {
+  constexpr int kWords = 16;
+  std::optional<ContactProblem<double>> rounded;
+  try {
+    rounded = Rounded<double>(problem);
+  } catch (const RangeError&) {
+    return {};
+  }
+  const InexactAnswer run = Solve(*rounded, method, options);
+  if (!run.Solved()) return {};
+  const double bound = BoundOf<double>(options);
+  const auto enclose = [&](const ModeWord& word) {
+    const auto solution = EncloseWord(*rounded, word);
+    return solution ? TellEnclosed(*rounded, *solution, bound, run) : std::nullopt;
+  };
+  if (const auto word = WordNamed(problem, run.word)) {
+    if (auto answer = enclose(*word)) return *std::move(answer);
+    if (auto exact = SolveWord(problem, *word, std::vector<Rational>(problem.rows(), 0)))
+      return TellExactly(run, std::move(exact->f), std::move(exact->a), run.word);
+  }
+  const ScaledProblem scaled = MakeScaled(problem, *rounded);
+  std::vector<double> point;
+  for (const double x : run.f) point.push_back(x / ToDouble(scaled.force));
+  if (const auto nearest = WordsByRank(problem, scaled, point).Next()) {
+    if (auto answer = enclose(*nearest)) return *std::move(answer);
+  }
+  std::set<ModeWord> tried;
+  NearbyWords near = SolveNear(problem, scaled, point, kWords, tried);
+  if (near.f) return TellExactly(run, *std::move(near.f), std::move(near.a), "");
+  return {};
 }
 
 }  // namespace stiction

@@ -8,6 +8,9 @@
 //                                                              (dependent_rows.h)
 //   exact           rationals                                  all
 //
+// Where nobody asks for the path, only for a solution, none is followed with certified signs: CertifyDoubles
+// runs the method over doubles and certifies the end, at the price of a check. What follows is of paths.
+//
 // A run that meets a sign which its rung does not tell is left, and begun anew on the next. Nothing is carried
 // from one rung to another, so that each run is a run of the one program that all scalars share. Nondegenerate
 // problems end on the first rung, at one to two times the time of doubles.
@@ -22,6 +25,7 @@
 
 #include <span>
 #include <string_view>
+#include <variant>
 
 #include "certify/exact/exact.h"
 #include "certify/exact/solve.h"
@@ -63,6 +67,14 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions&
 // last word are solved over rationals, and the solution is verified; what that does not give, the run over
 // rationals does. Without a path or a ray. Requires dimension 2.
 ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limits);
+
+// What a method ends in over doubles, certified: the equations of its cells, or of those near its forces, over
+// balls; where these leave a sign open, over rationals, with forces and accelerations exact. Counters and
+// word are of the run over doubles. Empty where it solved nothing, or doubles do not hold the problem, or no
+// cells near have a solution. Requires dimension 2, and a method that is built over doubles.
+using CertifiedAnswer = std::variant<std::monostate, ExactAnswer, InexactAnswer>;
+CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem,
+                               const SolveOptions& options);
 
 }  // namespace stiction
 

@@ -110,7 +110,7 @@ NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) 
   std::set<ModeWord> tried;
   try {
     const ContactProblem<double> rounded = Rounded<double>(problem);
-    const ScaledProblem scaled = MakeScaled(problem);
+    const ScaledProblem scaled = MakeScaled(problem, rounded);
     const auto look_near = [&](const Eigen::VectorXd& f) {
       std::vector<double> point;
       for (const double x : f) point.push_back(x / ToDouble(scaled.force));

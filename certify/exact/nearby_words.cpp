@@ -7,6 +7,8 @@
 #include "certify/exact/lifted_equations.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/rounded.h"
+#include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -14,17 +16,26 @@ namespace {
 
 using enum Mode;
 
-template <class Values>
-Rational Largest(const Values& values) {
-  Rational largest = 0;
-  for (const Rational& value : values.reshaped()) largest = std::max(largest, Rational(abs(value)));
-  return largest == 0 ? Rational(1) : largest;
+// The largest magnitude, 1 if all are zero; what the values were rounded to tells most of it.
+template <class Values, class RoundedValues>
+Rational Largest(const Values& values, const RoundedValues& rounded) {
+  const Rational* largest = nullptr;
+  double most = 0;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    const Rational& value = values.data()[k];
+    const double magnitude = std::abs(rounded.data()[k]);
+    if (magnitude < most || value == 0) continue;
+    if (largest == nullptr || magnitude > most || abs(value) > abs(*largest)) largest = &value;
+    most = magnitude;
+  }
+  return largest == nullptr ? Rational(1) : Rational(abs(*largest));
 }
 
 }  // namespace
 
 ScaledProblem MakeScaled(const ExactProblem& problem) {
-  const Rational A_unit = Largest(problem.A), b_unit = Largest(problem.b);
+  const Rational A_unit = Largest(problem.A, Eigen::MatrixXd(problem.A.unaryExpr(&ToDouble))),
+                 b_unit = Largest(problem.b, Eigen::VectorXd(problem.b.unaryExpr(&ToDouble)));
   ScaledProblem scaled;
   for (const auto& contact : problem.contacts) {
     scaled.mu.push_back(ToDouble(contact.mu));
@@ -37,6 +48,23 @@ ScaledProblem MakeScaled(const ExactProblem& problem) {
     scaled.b.push_back(ToDouble(problem.b[i] / b_unit));
     auto& row = scaled.A.emplace_back();
     for (int j = 0; j < problem.rows(); ++j) row.push_back(ToDouble(problem.A(i, j) / A_unit));
+  }
+  scaled.force = b_unit / A_unit;
+  return scaled;
+}
+
+ScaledProblem MakeScaled(const ExactProblem& problem, const ContactProblem<double>& rounded) {
+  const Rational A_unit = Largest(problem.A, rounded.A), b_unit = Largest(problem.b, rounded.b);
+  const double A_near = ToDouble(A_unit), b_near = ToDouble(b_unit);
+  ScaledProblem scaled;
+  for (const auto& contact : rounded.contacts) {
+    scaled.mu.push_back(contact.mu);
+    scaled.slip.push_back(contact.slip[0]);
+  }
+  for (int i = 0; i < rounded.rows(); ++i) {
+    scaled.b.push_back(rounded.b[i] / b_near);
+    auto& row = scaled.A.emplace_back();
+    for (int j = 0; j < rounded.rows(); ++j) row.push_back(rounded.A(i, j) / A_near);
   }
   scaled.force = b_unit / A_unit;
   return scaled;
@@ -129,65 +157,145 @@ void WordsByRank::Push(std::vector<int> ranks) {
 
 namespace {
 
-constexpr int kLiftedSize = 16;  // of equations, from which on lifting costs less than elimination
+constexpr int kLiftedSize = 16;    // of equations, from which on lifting costs less than elimination
+constexpr int kEnclosedSize = 64;  // of equations, beyond which balls grow too wide
 
 // A force that a word leaves open, x (e_row + f_t e_(row + 1)); in return a_row = 0.
+template <class Scalar>
 struct Unknown {
   int row;
-  Rational f_t;
+  Scalar f_t;
 };
 
-std::vector<Unknown> UnknownsOf(const ExactProblem& problem, const ModeWord& word) {
-  std::vector<Unknown> unknowns;
-  int row = 0;
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    const auto& contact = problem.contacts[i];
-    Rational f_t = 0;
-    if (word[i] == kSlipPlus) f_t = -contact.mu;
-    if (word[i] == kSlipMinus) f_t = contact.mu;
-    if (word[i] == kTouch && contact.kind == ContactKind::kSliding) f_t = -contact.mu * contact.slip[0];
-    if (word[i] != kBreak) unknowns.push_back({row, f_t});
-    if (word[i] == kStick) unknowns.push_back({row + 1, 0});
-    row += contact.HasFrictionRows() ? 2 : 1;
+// M x = right: nothing accelerates that the word holds.
+template <class Scalar>
+struct WordEquations {
+  using Problem = ContactProblem<Scalar>;
+
+  WordEquations(const Problem& problem, const ModeWord& word) {
+    int row = 0;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      const auto& contact = problem.contacts[i];
+      Scalar f_t(0);
+      if (word[i] == kSlipPlus) f_t = -contact.mu;
+      if (word[i] == kSlipMinus) f_t = contact.mu;
+      if (word[i] == kTouch && contact.kind == ContactKind::kSliding) f_t = -contact.mu * contact.slip[0];
+      if (word[i] != kBreak) unknowns.push_back({row, f_t});
+      if (word[i] == kStick) unknowns.push_back({row + 1, Scalar(0)});
+      row += contact.HasFrictionRows() ? 2 : 1;
+    }
+    const int size = static_cast<int>(unknowns.size());
+    M.resize(size, size);
+    right.resize(size);
+    for (int i = 0; i < size; ++i) {
+      const int of = unknowns[i].row;
+      right[i] = -problem.b[of];
+      for (int j = 0; j < size; ++j) {
+        const auto& [at, f_t] = unknowns[j];
+        M(i, j) = problem.A(of, at);
+        if (!IsSurelyZero(f_t)) M(i, j) += f_t * problem.A(of, at + 1);
+      }
+    }
   }
-  return unknowns;
+
+  typename Problem::Vector Forces(int rows, const typename Problem::Vector& x) const {
+    typename Problem::Vector f = Problem::Vector::Constant(rows, Scalar(0));
+    for (int j = 0; j < x.size(); ++j) {
+      const auto& [at, f_t] = unknowns[j];
+      f[at] += x[j];
+      if (!IsSurelyZero(f_t)) f[at + 1] += f_t * x[j];
+    }
+    return f;
+  }
+
+  std::vector<Unknown<Scalar>> unknowns;
+  typename Problem::Matrix M;
+  typename Problem::Vector right;
+};
+
+}  // namespace
+
+std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord& word,
+                                    const std::vector<Rational>& near) {
+  const WordEquations<Rational> equations(problem, word);
+  const int size = static_cast<int>(equations.unknowns.size());
+  ExactVector guess(size);
+  for (int i = 0; i < size; ++i) guess[i] = near[equations.unknowns[i].row];
+  const auto solve = size < kLiftedSize ? &SolveEquations : &SolveByLifting;
+  for (const ExactVector& free : {ExactVector(ExactVector::Zero(size)), guess}) {
+    const auto x = solve(equations.M, equations.right, free);
+    if (!x) return std::nullopt;
+    SolvedWord solution;
+    solution.f = equations.Forces(problem.rows(), *x);
+    solution.a = Accelerations(problem, solution.f);
+    if (!FindViolation(problem, solution.f, solution.a)) return solution;
+  }
+  return std::nullopt;
 }
 
-ExactVector Forces(const ExactProblem& problem, const std::vector<Unknown>& unknowns, const ExactVector& x) {
-  ExactVector f = ExactVector::Constant(problem.rows(), Rational(0));
-  for (int j = 0; j < x.size(); ++j) {
-    f[unknowns[j].row] += x[j];
-    if (unknowns[j].f_t != 0) f[unknowns[j].row + 1] += unknowns[j].f_t * x[j];
+// ---- The same, enclosed --------------------------------------------------------------------------
+
+namespace {
+
+// Whether whatever the ends of f and a enclose meets the law in the mode, whose equations it solves.
+bool MeetsMode(const Contact<NarrowBall>& contact, Mode mode, int row, const EnclosedSolution::Vector& f,
+               const EnclosedSolution::Vector& a) {
+  if (mode == kHold) return true;
+  const auto may_be_negative = [](const NarrowBall& x) { return !x.TellsSign() || x.Sign() < 0; };
+  if (may_be_negative(mode == kBreak ? a[row] : f[row])) return false;
+  if (mode == kSlipPlus) return !may_be_negative(a[row + 1]);
+  if (mode == kSlipMinus) return !may_be_negative(-a[row + 1]);
+  if (mode != kStick) return true;
+  const NarrowBall limit = contact.mu * f[row];
+  return !may_be_negative(limit - f[row + 1]) && !may_be_negative(limit + f[row + 1]);
+}
+
+bool MeetsWord(const ContactProblem<NarrowBall>& problem, const ModeWord& word,
+               const EnclosedSolution& solution) {
+  int row = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (!MeetsMode(problem.contacts[i], word[i], row, solution.f, solution.a)) return false;
+    row += problem.contacts[i].HasFrictionRows() ? 2 : 1;
   }
-  return f;
+  return true;
+}
+
+// Numbers that were rounded once, relative to themselves.
+ContactProblem<NarrowBall> AroundRounded(const ContactProblem<double>& rounded) {
+  return Converted<NarrowBall>(
+      rounded, [](double x) { return NarrowBall(x, x == 0 ? 0 : Rounding<double>::OfProduct(x)); });
 }
 
 }  // namespace
 
-std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord& word,
-                                     const std::vector<Rational>& near) {
-  const std::vector<Unknown> unknowns = UnknownsOf(problem, word);
-  const int size = static_cast<int>(unknowns.size());
-  ExactMatrix M(size, size);
-  ExactVector right(size), guess(size);
-  for (int i = 0; i < size; ++i) {
-    const int row = unknowns[i].row;
-    right[i] = -problem.b[row];
-    guess[i] = near[row];
-    for (int j = 0; j < size; ++j) {
-      M(i, j) = problem.A(row, unknowns[j].row);
-      if (unknowns[j].f_t != 0) M(i, j) += unknowns[j].f_t * problem.A(row, unknowns[j].row + 1);
-    }
+std::optional<EnclosedSolution> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word) {
+  const ContactProblem<NarrowBall> problem = AroundRounded(rounded);
+  const WordEquations<NarrowBall> equations(problem, word);
+  const int size = static_cast<int>(equations.unknowns.size()), rows = problem.rows();
+  if (size > kEnclosedSize) return std::nullopt;
+  EnclosedSolution::Matrix augmented(size, size + 1);
+  augmented.leftCols(size) = equations.M;
+  augmented.col(size) = equations.right;
+  EnclosedSolution::Vector x(size);
+  try {
+    Elimination<NarrowBall> elimination;
+    elimination.Assign(augmented);
+    elimination.Run(size, size, size + 1);
+    if (elimination.rank() < size) return std::nullopt;
+    elimination.BackSubstitute(size);
+    for (int j = 0; j < size; ++j) x[j] = elimination.Solution(j);
+  } catch (const UnsureSign&) {
+    return std::nullopt;
   }
-  const auto solve = size < kLiftedSize ? &SolveEquations : &SolveByLifting;
-  for (const ExactVector& free : {ExactVector(ExactVector::Zero(size)), guess}) {
-    const auto x = solve(M, right, free);
-    if (!x) return std::nullopt;
-    ExactVector f = Forces(problem, unknowns, *x);
-    if (!FindViolation(problem, f)) return f;
-  }
-  return std::nullopt;
+  EnclosedSolution solution = {equations.Forces(rows, x), problem.b};
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < rows; ++j)
+      if (!IsSurelyZero(solution.f[j])) solution.a[i] += problem.A(i, j) * solution.f[j];
+  for (const auto& unknown : equations.unknowns) solution.a[unknown.row] = NarrowBall();
+  return MeetsWord(problem, word, solution) ? std::optional(std::move(solution)) : std::nullopt;
 }
+
+// ---- Words near a point, solved ------------------------------------------------------------------
 
 namespace {
 
@@ -214,9 +322,12 @@ NearbyWords SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, 
     if (!word) break;
     if (!tried.insert(*word).second) continue;
     ++result.words;
-    result.f = SolveWord(problem, *word, near);
-    result.is_first = result.f && count == 0;
-    if (result.f) break;
+    auto solution = SolveWord(problem, *word, near);
+    if (!solution) continue;
+    result.f = std::move(solution->f);
+    result.a = std::move(solution->a);
+    result.is_first = count == 0;
+    break;
   }
   return result;
 }

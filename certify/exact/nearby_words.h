@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/exact/modes.h"
+#include "certify/exact/wide_ball.h"
 
 namespace stiction {
 
@@ -25,6 +26,8 @@ struct ScaledProblem {
 
 // InputError for a friction coefficient beyond the doubles.
 ScaledProblem MakeScaled(const ExactProblem& problem);
+// Made of what the numbers were rounded to, in the same units.
+ScaledProblem MakeScaled(const ExactProblem& problem, const ContactProblem<double>& rounded);
 
 struct RankedMode {
   Mode mode;
@@ -49,16 +52,33 @@ class WordsByRank {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
+// Forces and a = A f + b.
+struct SolvedWord {
+  ExactVector f, a;
+};
+
 // A solution of the problem in the word, exactly verified. `near`: forces close to the point, of few bits.
 // Where the equations leave forces free they are taken as zero, then as in `near`: inside its word Ipopt's
 // point has room for the others to follow.
-std::optional<ExactVector> SolveWord(const ExactProblem& problem, const ModeWord& word,
-                                     const std::vector<Rational>& near);
+std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord& word,
+                                    const std::vector<Rational>& near);
+
+// The same between ends: zero where the word says so, and every sign that the law asks for is told.
+struct EnclosedSolution {
+  using Vector = ContactProblem<NarrowBall>::Vector;
+  using Matrix = ContactProblem<NarrowBall>::Matrix;
+  Vector f, a;
+};
+
+// The one solution of the word's equations, if it solves the problem, whose numbers are those of `rounded` at
+// their nearest doubles (Rounded, corpus/rounded.h). Empty where balls do not tell.
+std::optional<EnclosedSolution> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word);
 
 // What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
 // nothing, as near a point that is not finite. Words in `tried` are passed over, and the others put there.
 struct NearbyWords {
   std::optional<ExactVector> f;
+  ExactVector a;          // A f + b, with f
   int words = 0;          // whose equations were solved
   bool is_first = false;  // the solution is in the nearest word
 };

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace stiction {
 namespace {
 
@@ -113,18 +117,72 @@ std::optional<std::string> FindViolationInSpace(const ExactProblem& problem, con
 
 }  // namespace
 
+namespace {
+
+using Parts = Fractions<Rational>;
+using Integer = Parts::Integer;
+
+// sum / (unit D): a row of A f + b over integers, where f = F / D.
+struct RowSum {
+  Integer sum, unit;
+
+  // sum / unit += x y
+  void Add(const Rational& x, const Integer& y) {
+    const Integer& denominator = Parts::Denominator(x);
+    if (denominator == unit) return Parts::AddProduct(sum, Parts::Numerator(x), y);
+    if (unit % denominator != 0) {
+      Integer grown = unit;
+      Parts::Include(grown, x);
+      sum *= Integer(grown / unit);
+      unit = std::move(grown);
+    }
+    Parts::AddProduct(sum, Parts::Numerator(x, unit), y);
+  }
+};
+
+// Forces over a common denominator.
+struct IntegerForces {
+  Integer denominator;
+  std::vector<std::pair<int, Integer>> numerators;  // of rows with a force
+};
+
+// Empty where that denominator is much longer than those of the forces, as of bodies that do not touch.
+std::optional<IntegerForces> OverIntegers(const ExactProblem::Vector& f) {
+  constexpr std::int64_t kLonger = 4;
+  IntegerForces forces = {CommonDenominator<Rational>(f), {}};
+  std::int64_t longest = 0;
+  for (const Rational& x : f) longest = std::max(longest, BitLength<Integer>::Of(Parts::Denominator(x)));
+  if (BitLength<Integer>::Of(forces.denominator) > kLonger * longest) return std::nullopt;
+  for (int j = 0; j < f.size(); ++j)
+    if (f[j] != 0) forces.numerators.emplace_back(j, Parts::Numerator(f[j], forces.denominator));
+  return forces;
+}
+
+}  // namespace
+
 ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProblem::Vector& f) {
   ExactProblem::Vector a = problem.b;
+  const auto forces = OverIntegers(f);
   for (int i = 0; i < a.size(); ++i) {
-    for (int j = 0; j < a.size(); ++j) {
-      if (f[j] != 0) a[i] += problem.A(i, j) * f[j];
+    if (!forces) {
+      for (int j = 0; j < a.size(); ++j)
+        if (f[j] != 0) a[i] += problem.A(i, j) * f[j];
+      continue;
     }
+    RowSum row = {Integer(Parts::Numerator(a[i]) * forces->denominator), Parts::Denominator(a[i])};
+    for (const auto& [j, numerator] : forces->numerators)
+      if (problem.A(i, j) != 0) row.Add(problem.A(i, j), numerator);
+    a[i] = row.sum == 0 ? Rational(0) : Parts::Quotient(row.sum, Integer(row.unit * forces->denominator));
   }
   return a;
 }
 
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f) {
-  const ExactProblem::Vector a = Accelerations(problem, f);
+  return FindViolation(problem, f, Accelerations(problem, f));
+}
+
+std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                         const ExactProblem::Vector& a) {
   int row = 0;
   for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
     if (auto violation = PlanarViolation(i, problem.contacts[i], row, f, a)) return violation;

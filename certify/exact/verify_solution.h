@@ -17,6 +17,9 @@ ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProbl
 // The first condition that f breaks, with its numbers; empty if f is a solution. Planar problems of all kinds
 // of contacts: (15); (16) for static, (24) for sliding ones; aN = 0 for bilateral ones.
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f);
+// The same with a = A f + b at hand.
+std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                         const ExactProblem::Vector& a);
 
 // The same in space, for all kinds of contacts: the conditions (21), (22) for static ones, which leave the
 // direction of slip free,

@@ -259,7 +259,15 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     }
     return solution;
   }
+  // The published algorithm, and whatever is told step by step, is run with certified signs from the start.
+  if (request.method != "baraff" && request.trace == KeepTrace::kNo) {
+    CertifiedAnswer certified = CertifyDoubles(request.method, problem, request.options);
+    if (auto* answer = std::get_if<InexactAnswer>(&certified)) return {.answer = std::move(*answer)};
+    if (auto* answer = std::get_if<ExactAnswer>(&certified)) return {.answer = std::move(*answer)};
+  }
+  const bool has_rungs = FindMethodFacts(request.method)->IsBuilt(problem.dimension, Arithmetic::kInterval);
   for (const Rung rung : {Rung::kDouble, Rung::kDoubleDouble}) {
+    if (!has_rungs) break;
     if (auto answer = SolveOnRung(problem, request, rung)) return {.answer = *std::move(answer)};
   }
   ExactAnswer answer = SolveExactly(problem, request);
