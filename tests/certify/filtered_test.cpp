@@ -9,8 +9,10 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
 #include "certify/exact/exact.h"
+#include "certify/exact/nearby_words.h"
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
+#include "corpus/rounded.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 
@@ -35,6 +37,13 @@ ExactProblem Generic(int contacts, std::uint64_t seed) {
     problem.A(i, i) += 1;
     problem.b[i] = Rational(choices.Integer(-1000, i % 2 == 0 ? 300 : 1000)) / 3;
   }
+  return problem;
+}
+
+// The first contact slides.
+ExactProblem WithSlip(ExactProblem problem) {
+  problem.contacts[0].kind = ContactKind::kSliding;
+  problem.contacts[0].slip = {1, 0};
   return problem;
 }
 
@@ -279,6 +288,71 @@ TEST_CASE("filtered: accelerations that follow from others are known to be zero,
   CAPTURE(wide, all);
   CHECK(all > 50);
   CHECK(wide > all / 2);
+}
+
+TEST_CASE("filtered: of all words those are enclosed that rationals solve, and around what they find") {
+  int enclosed = 0, solved = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const ExactProblem generic = Generic(1 + static_cast<int>(seed % 3), seed);
+    for (const ExactProblem& problem : {generic, WithSlip(generic)}) {
+      const ContactProblem<double> rounded = Rounded<double>(problem);
+      for (const ModeWord& word : AllWords(problem)) {
+        CAPTURE(seed, WordToJson(word).dump());
+        const auto ends = EncloseWord(rounded, word);
+        const auto exact = SolveWord(problem, word, std::vector<Rational>(problem.rows(), 0));
+        solved += exact.has_value();
+        if (!ends) continue;
+        ++enclosed;
+        REQUIRE(exact);
+        CHECK(exact->a == ExactVector(problem.A * exact->f + problem.b));
+        for (int i = 0; i < problem.rows(); ++i) {
+          CHECK(abs(Rational(ends->f[i].middle()) - exact->f[i]) <= Rational(ends->f[i].radius()));
+          CHECK(abs(Rational(ends->a[i].middle()) - exact->a[i]) <= Rational(ends->a[i].radius()));
+        }
+      }
+    }
+  }
+  CHECK(enclosed > 100);
+  CHECK(solved - enclosed <= 3);  // nothing ties
+  // Bilateral contacts that depend on each other leave forces free: that is for rationals.
+  const ExactProblem bordered = Bordered(Generic(1, 1));
+  for (const ModeWord& word : AllWords(bordered)) CHECK_FALSE(EncloseWord(Rounded<double>(bordered), word));
+}
+
+TEST_CASE("filtered: what doubles end in is certified: between ends around a solution, or exactly") {
+  int enclosed = 0, exact = 0, same = 0;
+  for (const GeneratorRow& generator : Generators()) {
+    if (generator.InSpace()) continue;
+    for (int index = 0; index < Few(40); ++index) {
+      const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 6, index);
+      for (const char* method : {"complete", "lemke", "fast"}) {
+        CAPTURE(generator.name, index, method);
+        const CertifiedAnswer answer = CertifyDoubles(method, problem, {});
+        if (const auto* whole = std::get_if<ExactAnswer>(&answer)) {
+          ++exact;
+          CHECK(whole->rung == Rung::kExact);
+          CHECK(whole->method == method);
+          CHECK_FALSE(FindViolation(problem, whole->f));
+          CHECK(whole->a == ExactVector(problem.A * whole->f + problem.b));
+        }
+        const auto* ends = std::get_if<InexactAnswer>(&answer);
+        if (ends == nullptr) continue;
+        ++enclosed;
+        CHECK(ends->rung == Rung::kDouble);
+        CHECK(ends->residual() <= kSolvedResidual<double>);
+        const ExactAnswer path = RunComplete(problem, {});
+        if (ends->word != path.word) continue;  // another solution, or none that cells name
+        ++same;
+        CheckEnclosed(ends->f_enclosed, path.f);
+        CheckEnclosed(ends->a_enclosed, path.a);
+      }
+    }
+  }
+  CAPTURE(enclosed, exact, same);
+  CHECK(enclosed > 100);
+  CHECK(exact > 100);
+  CHECK(same > 50);
+  CHECK(std::holds_alternative<std::monostate>(CertifyDoubles("complete", NoSolution(), {})));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "search/generators/choices.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -16,6 +17,32 @@ using Catch::Contains;
 TEST_CASE("verify solution: a = A f + b") {
   CHECK(Accelerations(ReferenceProblem(), Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)})) ==
         Vector({0, 0, 0, Rational(6, 7)}));
+}
+
+TEST_CASE("verify solution: a = A f + b whatever the denominators, of one group of contacts or of many") {
+  Choices choices(1);
+  for (const int groups : {1, 2, 9}) {
+    const int rows = 4, all = groups * rows;
+    ExactProblem problem;
+    problem.contacts.assign(all, {ContactKind::kFrictionless, 0, {}});
+    problem.A = ExactMatrix::Zero(all, all);
+    problem.b.resize(all);
+    ExactVector f(all);
+    const auto number = [&] {
+      return Rational(Rational(choices.Integer(-9, 9)) / Rational(choices.Integer(1, 99)));
+    };
+    for (int i = 0; i < all; ++i) {
+      // Denominators that have nothing in common, group by group.
+      f[i] = number() / (Rational(1000003 + 2 * (i / rows)) * 1000000007);
+      problem.b[i] = number();
+      for (int j = 0; j < rows; ++j) problem.A(i, i / rows * rows + j) = number();
+    }
+    problem.b[0] = -Rational(problem.A.row(0).dot(f));
+    const ExactVector a = Accelerations(problem, f);
+    CHECK(a == ExactVector(problem.A * f + problem.b));
+    CHECK(a[0] == 0);
+    CHECK(Accelerations(problem, ExactVector::Zero(all)) == problem.b);
+  }
 }
 
 TEST_CASE("verify solution: every solution of a problem is accepted, and what lies between is not") {

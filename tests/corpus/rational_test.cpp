@@ -136,6 +136,21 @@ TEST_CASE("nearest double: a number halfway between two doubles goes to the even
   }
 }
 
+TEST_CASE("nearest double: no double beside it is nearer, of short numbers and long") {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 3000; ++i) {
+    const auto digits = [&] { return RandomDigits(random, 1 + random() % 300) + "1"; };
+    const Rational x = *ParseRational((random() % 2 ? "-" : "") + digits() + "/" + digits());
+    const double nearest = ToDouble(x);
+    if (!std::isfinite(nearest)) continue;
+    const Rational off = abs(Rational(nearest) - x);
+    for (const double end : {-kInfinity, kInfinity}) {
+      const double beside = std::nextafter(nearest, end);
+      if (std::isfinite(beside)) REQUIRE(off <= abs(Rational(beside) - x));
+    }
+  }
+}
+
 TEST_CASE("nearest double: subnormal numbers are rounded once, at their own last bit") {
   const Rational tiny = PowerOfTwo(-1074);
   const double normal = std::numeric_limits<double>::min();
