@@ -38,7 +38,7 @@ struct ReportVerb {
   std::vector<std::string> others, benches;
   std::string since;
   std::optional<std::int64_t> files;
-  bool replace = false, text = false, latex = false, json = false;
+  bool replace = false, text = false, all = false, latex = false, json = false;
 };
 
 // How far what is made of a store is written.
@@ -57,8 +57,9 @@ int PrintReport(const ReportVerb& o, const Store& store) {
   else if (optimized)
     std::cout << OptimizedText(store, o.store);
   else
-    std::cout << (TestsSolver(store, o.store) ? SolverText(store, o.store)
-                                              : TextReport(store, o.store, KnownAs));
+    std::cout << (TestsSolver(store, o.store)
+                      ? SolverText(store, o.store)
+                      : TextReport(store, o.store, KnownAs, o.all ? Extent::kAll : Extent::kTwoScreens));
   return kExitDone;
 }
 
@@ -192,6 +193,7 @@ int ReportBenches(const ReportVerb& o) {
 }
 
 int RunReport(const ReportVerb& o) {
+  if (o.all && !o.text) throw InputError("report: found --all without --text, expected --text --all");
   if (o.store.empty()) return ReportBenches(o);
   if (!o.others.empty()) return CompareStores(o);
   if (o.folder.empty() && o.package.empty() && !o.text)
@@ -213,6 +215,7 @@ const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
           "failures side by side");
   verb.Option("-o,--output", o.folder, "folder to write; what a report before wrote is replaced");
   verb.Flag("--text", o.text, "print what it holds as text; no folder is needed then");
+  verb.Flag("--all", o.all, "with --text: by contacts, friction and every policy, not on two screens");
   verb.Option("--package", o.package, "data package to write: a folder that Python alone verifies");
   verb.Flag("--latex", o.latex, "tables and figures for papers besides, in latex/; with -o");
   verb.Option("--bench", o.benches,

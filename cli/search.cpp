@@ -219,6 +219,17 @@ std::string StoreFor(const CampaignIdentity& identity) {
   return file;
 }
 
+// Where whole units hold more problems than were asked for.
+std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> asked) {
+  if (!asked) return "";
+  const std::vector<Task> schedule = Schedule(campaign);
+  std::int64_t problems = 0;
+  for (std::int64_t unit = 0; unit < UnitsFor(campaign, *asked); ++unit)
+    problems += UnitProblems(campaign, TaskOf(schedule, unit));
+  if (problems == *asked) return "";
+  return fmt::format("; {} problems were asked for, {} fill whole units", Grouped(*asked), Grouped(problems));
+}
+
 int RunSearchVerb(const SearchVerb& asked) {
   SearchVerb o = asked;
   if (o.store.empty() && o.finish) o.store = kUsualStore;
@@ -226,8 +237,8 @@ int RunSearchVerb(const SearchVerb& asked) {
   if (o.store.empty()) o.store = StoreFor(IdentityOf(campaign));
   SearchOptions options = OptionsOf(o);
   options.started = [&] {
-    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}\n", TimeOfDay(), campaign.seed,
-               options.threads, o.shard, o.store);
+    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}{}\n", TimeOfDay(), campaign.seed,
+               options.threads, o.shard, o.store, RoundedText(campaign, o.problems));
   };
   NightLog log(options.minutes);
   std::int64_t untold = 0;

@@ -44,7 +44,7 @@ constexpr std::array kWords = {
     Word{"give up, given up",
          "what the paper does at a bounce: the variable leaves all sets, and is driven again later",
          "5.4, 5.5"},
-    Word{"loop", "a run whose state recurs, so that it never terminates; a cycle or a stall", ""},
+    Word{"loop", "a run whose state recurs, so that it never ends; a cycle or a stall", ""},
     Word{"cycle", "a loop over drives: a state between two drives recurs exactly", ""},
     Word{"stall", "a loop inside one drive", ""},
     Word{"start, period",

@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "corpus/record/scene_file.h"
 #include "corpus/record/scene_problems.h"
 #include "python/signals.h"
+#include "reports/animation.h"
 #include "reports/pictures/rounded_scene.h"
 #include "scene/tables.h"
 
@@ -123,16 +125,31 @@ ArraysOfRun<Kind> RunArrays(const SceneIn<Kind, double>& scene, const Simulation
   return run;
 }
 
+// What is asked of a scene; without a value, what the scene says.
+struct AskedRun {
+  std::optional<double> seconds, step;
+  double rest = 0;
+  bool full = false;
+
+  template <class Kind>
+  SimulationOptions OptionsFor(const SceneFileIn<Kind>& file, const std::string& source) const {
+    SimulationOptions options;
+    options.step = step ? *step : StepOf(file, source);
+    options.rest = rest;
+    options.minimal = !full;
+    return options;
+  }
+  template <class Kind>
+  std::int64_t StepsFor(const SceneFileIn<Kind>& file, const std::string& source, double step_size) const {
+    return std::llround((seconds ? *seconds : SecondsOf(file, source)) / step_size);
+  }
+};
+
 template <class Kind>
-py::dict SimulateScene(const SceneFileIn<Kind>& file, const std::string& source, std::optional<double> seconds,
-                       std::optional<double> step, double rest, bool full) {
-  SimulationOptions options;
-  options.step = step ? *step : StepOf(file, source);
-  options.rest = rest;
-  options.minimal = !full;
-  const double time = seconds ? *seconds : SecondsOf(file, source);
+py::dict SimulateScene(const SceneFileIn<Kind>& file, const std::string& source, const AskedRun& asked) {
+  const SimulationOptions options = asked.OptionsFor(file, source);
+  const std::int64_t steps = asked.StepsFor(file, source, options.step);
   const SceneIn<Kind, double> scene = RoundedScene(file, source);
-  const auto steps = static_cast<std::int64_t>(std::llround(time / options.step));
   auto run = Interruptible(
       0, [&](const std::atomic<bool>* stop) { return RunArrays<Kind>(scene, options, steps, stop); });
   py::dict said, statistics;
@@ -150,9 +167,7 @@ py::dict SimulateScene(const SceneFileIn<Kind>& file, const std::string& source,
   return said;
 }
 
-// Of the text of a scene file.
-py::dict SimulateText(const std::string& text, const std::string& source, std::optional<double> seconds,
-                      std::optional<double> step, double rest, bool full) {
+AskedRun Asked(std::optional<double> seconds, std::optional<double> step, double rest, bool full) {
   const auto require = [](const char* name, std::optional<double> value, double least, double most) {
     if (!value || (*value >= least && *value <= most)) return;
     throw InputError(fmt::format("{}: found {}, expected {} to {}", name, *value, least, most));
@@ -160,7 +175,14 @@ py::dict SimulateText(const std::string& text, const std::string& source, std::o
   require("seconds", seconds, kLeastTime, kMostSeconds);
   require("step", step, kLeastTime, kMostStep);
   require("rest", rest, 0, kMostRest);
-  return std::visit([&](const auto& file) { return SimulateScene(file, source, seconds, step, rest, full); },
+  return {seconds, step, rest, full};
+}
+
+// Of the text of a scene file.
+py::dict SimulateText(const std::string& text, const std::string& source, std::optional<double> seconds,
+                      std::optional<double> step, double rest, bool full) {
+  const AskedRun asked = Asked(seconds, step, rest, full);
+  return std::visit([&](const auto& file) { return SimulateScene(file, source, asked); },
                     ParseAnyScene(text, source));
 }
 
@@ -180,10 +202,76 @@ std::vector<std::string> AssembleText(const std::string& text, const std::string
   return std::visit(assemble, ParseAnyScene(text, source));
 }
 
+// The page that plays a run, thirty frames a second, as `stiction simulate` writes it; without the problems of
+// its frames. Where a step has no answer, the run ends.
+template <class Kind>
+std::string PageOfRun(const SceneIn<Kind, double>& scene, const SimulationOptions& options, std::int64_t steps,
+                      const std::atomic<bool>* stop) {
+  constexpr double kRate = 30;  // frames a second
+  SimulationIn<Kind> simulation(scene, options);
+  MotionTrack<Kind> track;
+  View view;
+  std::vector<FrameIn<Kind>> frames;
+  Drift worst;  // since the frame before
+  const auto add = [&](const SceneIn<Kind, double>& shown, double time) {
+    const Energy energy = EnergyOf(shown);
+    frames.push_back(RecordFrame(shown, time, MarksOf(simulation)));
+    frames.back().energy = {energy.kinetic, energy.potential};
+    frames.back().drift = {worst.joints, worst.overlap};
+    frames.back().remark = "without";
+    worst = {};
+    view.Include(shown);
+  };
+  const auto watch = [&] {
+    const Drift drift = DriftOf(simulation.scene());
+    worst = {std::max(worst.joints, drift.joints), std::max(worst.overlap, drift.overlap)};
+    track.Add(simulation.time(), simulation.scene(), SupportsOf(simulation));
+  };
+  watch();
+  double next = 0;  // frame, s
+  try {
+    for (std::int64_t k = 0; k < steps && !*stop; ++k) {
+      const double time = simulation.time();
+      const SceneIn<Kind, double> start = simulation.scene();
+      simulation.Step();
+      if (time >= next - 1e-9) {
+        next += 1 / kRate;
+        add(start, time);
+      }
+      watch();
+    }
+    add(simulation.scene(), simulation.time());
+    frames.back().remark = "last";
+  } catch (const SimulationError&) {
+    add(simulation.scene(), simulation.time());
+    frames.back().marks.forces.clear();  // they are of the step before
+    frames.back().remark = "undecided";
+  }
+  view.AddMargin();
+  std::vector<double> largest;
+  for (const auto& frame : frames) largest.push_back(LargestForce(frame.marks));
+  return AnimationPage(scene, view, frames, ForceScale(view, std::move(largest)), kRate, track.Motions());
+}
+
+std::string SimulationPage(const std::string& text, const std::string& source, std::optional<double> seconds,
+                           std::optional<double> step, double rest, bool full) {
+  const AskedRun asked = Asked(seconds, step, rest, full);
+  return std::visit(
+      [&]<class Kind>(const SceneFileIn<Kind>& file) {
+        const SimulationOptions options = asked.OptionsFor(file, source);
+        const std::int64_t steps = asked.StepsFor(file, source, options.step);
+        const SceneIn<Kind, double> scene = RoundedScene(file, source);
+        return Interruptible(
+            0, [&](const std::atomic<bool>* stop) { return PageOfRun<Kind>(scene, options, steps, stop); });
+      },
+      ParseAnyScene(text, source));
+}
+
 }  // namespace
 
 void AddSimulate(py::module_& module) {
   module.def("simulate", &SimulateText);
+  module.def("simulation_page", &SimulationPage);
   module.def("assemble", &AssembleText);
 }
 

@@ -9,10 +9,10 @@
 #include <iterator>
 #include <map>
 #include <set>
-#include <string_view>
 
 #include "corpus/json.h"
 #include "reports/animation_template.h"
+#include "reports/html/packed.h"
 #include "reports/html/template.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/tables.h"
@@ -32,17 +32,12 @@ class PackedNumbers {
   }
   void AddFloat(double x) { Add(std::bit_cast<std::uint32_t>(static_cast<float>(x)), 4); }
 
-  std::string Text() const {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
-      std::uint32_t three = 0;
-      for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes_.size() ? bytes_[i + k] : 0);
-      for (std::size_t k = 0; k < 4; ++k)
-        text += i + k <= bytes_.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
+  void Append(const PackedNumbers& other) {
+    bytes_.insert(bytes_.end(), other.bytes_.begin(), other.bytes_.end());
   }
+  bool operator==(const PackedNumbers&) const = default;
+
+  std::string Text() const { return Base64(bytes_); }
 
  private:
   void Add(std::uint32_t bits, int bytes) {
@@ -52,6 +47,57 @@ class PackedNumbers {
 };
 
 constexpr double kTenths = 10, kTurns = 1e4;  // of a pixel; of a cosine
+
+// A list beside the one of the frame before: runs of what stands there, too, at the same places, and of what is
+// new: `visit(first, same, end)`, of which [first, same) stands there.
+template <class Item, class Visit>
+void ForEachRun(const std::vector<Item>& before, const std::vector<Item>& now, const Visit& visit) {
+  const auto stands = [&](std::size_t i) { return i < before.size() && before[i] == now[i]; };
+  for (std::size_t first = 0; first < now.size();) {
+    std::size_t same = first;
+    while (same < now.size() && stands(same)) ++same;
+    std::size_t end = same;
+    while (end < now.size() && !stands(end)) ++end;
+    visit(first, same, end);
+    first = end;
+  }
+}
+
+// Markup in parts, an element each.
+std::vector<std::string> ElementsOf(const std::string& markup) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at < markup.size();) {
+    const std::size_t next = std::min(markup.find('<', at + 1), markup.size());
+    parts.push_back(markup.substr(at, next - at));
+    at = next;
+  }
+  return parts;
+}
+
+// Of bodies at rest a frame repeats what the one before has.
+struct FrameParts {
+  std::vector<PackedNumbers> forces;
+  std::vector<std::string> placed;
+};
+
+std::string ForcesText(const FrameParts& before, const FrameParts& now) {
+  PackedNumbers packed;
+  ForEachRun(before.forces, now.forces, [&](std::size_t first, std::size_t same, std::size_t end) {
+    packed.AddWord(static_cast<double>(same - first));
+    packed.AddWord(static_cast<double>(end - same));
+    for (std::size_t i = same; i < end; ++i) packed.Append(now.forces[i]);
+  });
+  return packed.Text();
+}
+
+Json PlacedToJson(const FrameParts& before, const FrameParts& now) {
+  Json json = Json::array();
+  ForEachRun(before.placed, now.placed, [&](std::size_t first, std::size_t same, std::size_t end) {
+    if (same > first) json.push_back(same - first);
+    for (std::size_t i = same; i < end; ++i) json.push_back(now.placed[i]);
+  });
+  return json;
+}
 
 // What contacts of all frames have in common, each once.
 template <class Kind>
@@ -101,15 +147,15 @@ Json PosesOf(const SceneInSpace<double>&, const Screen&) { return Json::array();
 
 template <class Kind>
 Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const FrameIn<Kind>& frame,
-               double newton, Contacts<Kind>& contacts) {
-  PackedNumbers forces;
+               double newton, Contacts<Kind>& contacts, FrameParts& before) {
+  FrameParts now = {{}, ElementsOf(Placed(moved, screen).markup())};
   std::set<std::array<double, 2>> places;
   for (const auto& force : frame.marks.forces) {
     if (force.from_joint) continue;
     const Vector2<double> at = Seen(force.point);
     const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
     places.insert(place);
-    AddForce(forces, moved, screen, force, newton, contacts.IndexOf(force), place);
+    AddForce(now.forces.emplace_back(), moved, screen, force, newton, contacts.IndexOf(force), place);
   }
   Json points = Json::array();  // that bear no force
   for (const auto& contact : frame.marks.contacts) {
@@ -117,15 +163,17 @@ Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const F
     const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
     if (!places.contains(place)) points.push_back(place);
   }
-  return {{"time", frame.time},
-          {"poses", PosesOf(moved, screen)},
-          {"placed", Placed(moved, screen).markup()},
-          {"points", std::move(points)},
-          {"forces", forces.Text()},
-          {"problems", frame.problems},
-          {"remark", frame.remark},
-          {"energy", NumbersToJson(frame.energy)},
-          {"drift", NumbersToJson(frame.drift)}};
+  Json json = {{"time", frame.time},
+               {"poses", PosesOf(moved, screen)},
+               {"placed", PlacedToJson(before, now)},
+               {"points", std::move(points)},
+               {"forces", ForcesText(before, now)},
+               {"problems", frame.problems},
+               {"remark", frame.remark},
+               {"energy", NumbersToJson(frame.energy)},
+               {"drift", NumbersToJson(frame.drift)}};
+  before = std::move(now);
+  return json;
 }
 
 }  // namespace
@@ -140,9 +188,10 @@ std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) names.push_back(NameOfBody(scene, i));
   for (const Html& picture : BodyPictures(scene, screen)) bodies.push_back(picture.markup());
   SceneIn<Kind, double> moved = scene;
+  FrameParts before;
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    shown.push_back(FrameJson(moved, screen, frame, newton, contacts));
+    shown.push_back(FrameJson(moved, screen, frame, newton, contacts, before));
   }
   Json ends = Json::array();
   for (const BodyMotion& motion : motions)

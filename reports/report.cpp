@@ -87,6 +87,7 @@ Json WritePlayer(ReportFiles& folder, const std::vector<Discovery>& discoveries,
     playable->data["looping"] = run->grid.Loops();
     playable->data["policies"] = run->grid.Total();
   }
+  playable->origin.report = "index.html";
   folder.Write("replay.html", ViewerPage(file.name + ", step by step", playable->data, playable->origin));
   return playable->data;
 }

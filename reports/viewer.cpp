@@ -17,12 +17,19 @@ Html OriginRows(const ViewerOrigin& origin) {
          Tag("dd")(Tag("code")(origin.digest));
 }
 
+Html WayBack(const ViewerOrigin& origin) {
+  if (origin.report.empty()) return {};
+  return Tag("a", {{"href", origin.report}})("A report of stiction") + Html(" · ");
+}
+
 }  // namespace
 
 std::string ViewerPage(const std::string& title, const Json& data, const ViewerOrigin& origin) {
   const std::string page(std::begin(kViewerTemplate), std::end(kViewerTemplate));
-  return FilledTemplate(
-      page, {{"title", Text(title)}, {"data", ScriptData(JsonText(data))}, {"origin", OriginRows(origin)}});
+  return FilledTemplate(page, {{"title", Text(title)},
+                               {"back", WayBack(origin)},
+                               {"data", ScriptData(JsonText(data))},
+                               {"origin", OriginRows(origin)}});
 }
 
 }  // namespace stiction

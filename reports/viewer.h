@@ -18,6 +18,7 @@ struct ViewerOrigin {
   std::string command;  // as a shell reads it
   std::string version;  // of the program
   std::string digest;   // of the problem (corpus/record/digest.h)
+  std::string report;   // the page of the report that it belongs to; empty: it stands alone
 };
 
 // What a page plays.

@@ -100,7 +100,8 @@ def solve_many(A: Any, b: Any, mu: Any, kinds: Sequence[str] | None = None, dime
 
     A is n x rows x rows in 1/kg, b n x rows in m/s^2, mu n x contacts; one of A, one of b and one number or one list of
     mu stand for all n. Arrays of doubles are read where they lie. Over doubles, unless another arithmetic is asked for;
-    'fast' takes least time, 'auto' looks for forces at rest, too, by rationals. On all cores, or so many threads,
+    'fast' takes least time. 'auto' takes up to twenty times as long: where doubles leave open whether some contacts can
+    rest while others move, it decides by an exact linear program. On all cores, or so many threads,
     without the interpreter's lock; answers do not depend on how many. Ctrl-C is a KeyboardInterrupt. ValueError names
     the first problem that is refused.
     """

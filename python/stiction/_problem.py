@@ -17,6 +17,22 @@ def _texts(A: NDArray[Any]) -> list[list[str]]:
     return [[exact_text(x, f"Problem: A[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(A)]
 
 
+def _is_infinite(mu: Any) -> bool:
+    return mu == "inf" if isinstance(mu, str) else isinstance(mu, (float, np.floating)) and float(mu) == float("inf")
+
+
+def _read_infinite(kinds: list[str], mu: list[Any], slips: list[Any],
+                   dimension: int) -> tuple[list[str], list[Any], list[Any]]:
+    """A static contact without a bound on friction as files have it: a frictionless row, and bilateral ones."""
+    contacts: list[tuple[str, Any, Any]] = []
+    for contact in zip(kinds, mu, slips):
+        if contact[0] == "static" and _is_infinite(contact[1]):
+            contacts += [("frictionless", 0, None)] + [("bilateral", 0, None)] * (dimension - 1)
+        else:
+            contacts.append(contact)
+    return tuple([contact[i] for contact in contacts] for i in range(3))  # type: ignore[return-value]
+
+
 class Problem:
     """a = A f + b with contacts: rows are the normal of a contact, then its friction if it is static.
 
@@ -25,7 +41,8 @@ class Problem:
     slips has the direction: 1 or -1 in the plane, in space a unit vector of two exact numbers, as ('3/5', '4/5');
     of the others None. Arrays of doubles are read where they lie, those of integers and of shorter floating point
     after one conversion, and each double is the rational that it is; all else is taken exactly, number by number. A
-    problem holds rationals. A need not be symmetric, nor b in its range: `certify` says whether they are.
+    problem holds rationals. mu may be float('inf') or 'inf' of a contact that is static: then it holds by other
+    contacts, a frictionless one and bilateral ones (corpus/formats/problems.md). A need not be symmetric, nor b in its range: `certify` says whether they are.
 
     In place of A and b may be given, by their names, J (rows x velocities), M, w (of each velocity) and c (of each row,
     by default zero): A = J inv(M) J', b = J w + c. J and M are matrices of scipy.sparse or of numpy; M may also be its
@@ -66,6 +83,7 @@ class Problem:
                 raise ValueError(f"Problem: {of}: found {found}, expected {len(kinds)}, one for each contact")
         for i, kind in enumerate(kinds):
             require_text(**{f"kinds[{i}]": kind})
+        kinds, mu, slips = _read_infinite(kinds, mu, slips, dimension)
         directions = [[] if slip is None else
                       [exact_text(x, f"Problem: slips[{i}]") for x in listed(slip, f"slips[{i}]")]
                       for i, slip in enumerate(slips)]

@@ -2,6 +2,7 @@
 """Scenes, stepped through time."""
 from __future__ import annotations
 
+import html
 import json
 from dataclasses import dataclass
 from typing import Any, Mapping
@@ -24,6 +25,7 @@ class Simulation:
     each column means are listed in corpus/formats/simulation_tables.md. Those of `bodies` are states x bodies, state 0
     the scene as given. The others have a number for each row: `contacts` one for each contact of each step, whose state
     is its column `step`. `reason` says why a step has no answer, where the run ended early; otherwise it is empty.
+    A notebook shows it as a page that plays it.
     """
 
     name: str
@@ -35,6 +37,15 @@ class Simulation:
     motion: Table
     statistics: dict[str, int]
     reason: str
+    asked: tuple[str, str, float | None, float | None, float, bool]  # text of the scene, its place, and what was asked
+
+    def page(self) -> str:
+        """A page that plays the run: HTML that needs nothing else. The run is made again for it."""
+        return _stiction.simulation_page(*self.asked)
+
+    def _repr_html_(self) -> str:  # a notebook shows the player
+        return (f'<iframe srcdoc="{html.escape(self.page())}" style="width: 100%; height: 45em; border: 0" '
+                f'title="{html.escape(self.name)}, stepped through time"></iframe>')
 
     def __repr__(self) -> str:
         states, bodies = self.bodies["time_s"].shape
@@ -135,10 +146,10 @@ def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step
     text, source = _scene_text(scene)
     if not isinstance(full, bool):
         raise TypeError(f"full: found {full!r}, expected True or False")
-    said = _stiction.simulate(text, source, None if seconds is None else real("seconds", seconds),
-                              None if step is None else real("step", step), 0.0 if rest is None else real("rest", rest),
-                              full)
+    asked = (text, source, None if seconds is None else real("seconds", seconds),
+             None if step is None else real("step", step), 0.0 if rest is None else real("rest", rest), full)
+    said = _stiction.simulate(*asked)
     energy = _table(said["energy"])
     return Simulation(said["name"], said["dimension"], _table(said["bodies"], len(energy["time_s"])),
                       _table(said["contacts"]), energy, _table(said["drift"]), _table(said["motion"]),
-                      said["statistics"], said["reason"])
+                      said["statistics"], said["reason"], asked)

@@ -37,7 +37,7 @@ constexpr Measure kMeasures[] = {
      [](const Counts& c) { return ShareOf(c.Loops(), c.runs); }},
     {"singular", "runs without a direction of the forces, confirmed exactly", false,
      [](const Counts& c) { return ShareOf(c.Of(Outcome::kSingular), c.runs); }},
-    {"rays", "runs with a step without end, confirmed exactly", false,
+    {"rays", "runs with a step without limit, confirmed exactly", false,
      [](const Counts& c) { return ShareOf(c.Of(Outcome::kRay), c.runs); }},
     {"zero-steps", "runs with a step of length zero", false,
      [](const Counts& c) { return ShareOf(c.with_zero_steps, c.runs); }},

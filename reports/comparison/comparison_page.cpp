@@ -57,7 +57,7 @@ Html NoiseTable(const std::vector<const ComparedRate*>& beyond) {
                {"friction", "of all contacts, where runs of one friction are compared", kText},
                {"what", "", kText},
                {"more in", "", kText},
-               {"A", "runs, of how many, share and its exact interval at 95 %"},
+               {"A", "runs, of how many, share and its exact interval at 95 %"},
                {"B", "likewise"},
                {"p", "of Fisher's exact test, two-sided"},
                {"p corrected", "for all tests of this comparison, by Holm"}}};
@@ -124,7 +124,7 @@ std::string ComparisonPage(const Comparison& comparison, const std::string& file
   const Html rates =
       FigurePlace(
           "comparison",
-          "How often, in a million runs, with exact intervals at 95 %, on a logarithmic scale. Zero has no "
+          "How often, in a million runs, with exact intervals at 95 %, on a logarithmic scale. Zero has no "
           "place on it: where none was seen, a dotted line reaches up to the end of the interval, below "
           "which the rate lies.",
           kMadeBy, "") +

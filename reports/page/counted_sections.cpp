@@ -65,11 +65,11 @@ Html FrequenciesSection(const Record& total) {
       "frequencies", "How often it fails exactly",
       Tag("p")(
           Html("Suspicious runs whose failure exact arithmetic confirmed, and below each count its rate in a "
-               "million runs with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).") +
+               "million runs with its exact interval at 95 % (Garwood; of shares, Clopper and Pearson).") +
           RateBounds(total)) +
           FigurePlace("rates.contacts",
                       "Failures confirmed exactly in a million runs, by generator and number of "
-                      "contacts, on a logarithmic scale; lines: exact intervals at 95 %. An open "
+                      "contacts, on a logarithmic scale; lines: exact intervals at 95 %. An open "
                       "triangle: none was seen, and the rate is below its tip.") +
           FigurePlace("rates.friction",
                       "Failures confirmed exactly in a million runs, by generator and friction coefficient of "
@@ -90,7 +90,7 @@ Html FrequenciesSection(const Record& total) {
 Html OutcomesSection(const Record& total) {
   return Section(
       "outcomes", "Outcomes",
-      Html("<p>As the runs in doubles ended. Runs not solved, per million, with exact intervals at 95 %; the "
+      Html("<p>As the runs in doubles ended. Runs not solved, per million, with exact intervals at 95 %; the "
            "deeper the colour, the more, one shade for each factor of ten:</p>\n") +
           ToHtml(UnsolvedTable(total)) +
           Html(
@@ -111,7 +111,7 @@ Html DoublesSection(const Record& total) {
           ToHtml(SuspicionsTable(total)) + Html("<h3>By generator</h3>\n") +
           FigurePlace("trust",
                       "Share of the audited runs that doubles misjudged, and of all runs that "
-                      "ended in a wrong answer; lines: exact intervals at 95 %.") +
+                      "ended in a wrong answer; lines: exact intervals at 95 %.") +
           ToHtml(TrustTable(total)));
 }
 
@@ -124,7 +124,7 @@ Html StepsSection(const Record& total) {
           FigurePlace("pivoting",
                       "Share of the runs in doubles with a step of length zero, and of those in which a "
                       "variable was given up, by generator and number of contacts; lines: exact "
-                      "intervals at 95 %.") +
+                      "intervals at 95 %.") +
           Html("<h3>Work per problem</h3>\n<p>Of the runs in doubles: the mean, and below it the maximum. A "
                "loop counts up to where it was noticed.</p>\n") +
           ToHtml(PivotsTable(total)) +
@@ -147,7 +147,7 @@ Html MethodsSection(const ReportContent& content) {
           "errors are at most 1e-6.</p>\n") +
           FigurePlace("methods",
                       "Share of the problems that each method solved, of those that it was asked about, "
-                      "by number of contacts; lines: exact intervals at 95 %.") +
+                      "by number of contacts; lines: exact intervals at 95 %.") +
           ToHtml(MethodsTable(content.total, content.discoveries)));
 }
 
@@ -164,7 +164,7 @@ Html ExistenceSection(const Record& total) {
            "unit, and on problems that are audited or drawn; the solution is verified exactly:</p>\n") +
           FigurePlace("driving",
                       "Share of the paths of complete driving with folds, with descents, and with ties, by "
-                      "number of contacts; lines: exact intervals at 95 %.") +
+                      "number of contacts; lines: exact intervals at 95 %.") +
           ToHtml(Select(table, "contacts problems solved not_solved pieces with_folds with_descents with_ties",
                         "Complete driving on the problems that were given to it, by number of contacts")) +
           Html("<h3>Do the methods agree?</h3>\n") + Tag("p")(verdict) + Html("\n") +

@@ -89,7 +89,7 @@ Html Beside(const Html& words, const Html& figure) {
 Html Answers(const ReportContent& content, const Sentences& told) {
   const Record& total = content.total;
   const Html intervals = Html(
-      "<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by Clopper and "
+      "<p class=\"note\">In brackets: exact intervals at 95 %, of counts by Garwood, of shares by Clopper and "
       "Pearson.</p>\n");
   Table table = FailuresTable(total, {"generator"});
   table.caption = "Failures confirmed exactly, by generator";
@@ -98,7 +98,7 @@ Html Answers(const ReportContent& content, const Sentences& told) {
              Beside(told.grid + told.stuck + Tag("p", {{"class", "note"}})(RateBounds(total)) + intervals,
                     FigurePlace("often",
                                 "Loops confirmed exactly in a million runs, of all generators together; lines: "
-                                "exact intervals at 95 %. An open triangle: none was seen, and the rate is "
+                                "exact intervals at 95 %. An open triangle: none was seen, and the rate is "
                                 "below its tip."))) +
          Section(
              "cost", "What it costs",

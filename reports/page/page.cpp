@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "corpus/json.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"
 #include "reports/findings_template.h"
+#include "reports/html/packed.h"
 #include "reports/html/template.h"
 #include "reports/report_template.h"
 
@@ -214,13 +216,33 @@ std::string ResultsPage(const ReportContent& content, const std::vector<Table>& 
                               .how = MethodText(content)});
 }
 
+// The values of each field that findings are filtered by.
+Json ChoicesAmong(const Json& findings) {
+  Json choices = Json::object();
+  for (const char* field : {"kind", "smallest", "generator", "policy", "state", "change"}) {
+    std::set<std::string> values;
+    for (const Json& finding : findings) {
+      if (const auto value = finding.find(field); value != finding.end()) values.insert(PlainText(*value));
+    }
+    values.erase("");
+    if (!values.empty()) choices[field] = values;
+  }
+  return choices;
+}
+
 std::string FindingsPage(const ReportContent& content) {
   const std::string page(std::begin(kFindingsTemplate), std::end(kFindingsTemplate));
-  const Json data = {{"findings", FindingsToJson(content.discoveries, content.since)},
+  const Json findings = FindingsToJson(content.discoveries, content.since);
+  const auto text = [](const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  std::string lines;
+  for (const Json& finding : findings) lines += text(finding) + "\n";
+  const Json data = {{"choices", ChoicesAmong(findings)},
+                     {"count", findings.size()},
+                     {"findings", FindingsToJson(content.discoveries, content.since, kFindingsShown)},
                      {"plays", content.player.is_null() ? Json(0) : content.player["problem"]["dimension"]}};
-  return FilledTemplate(page,
-                        {{"found", FindingsSection(content.discoveries, content.since)},
-                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  return FilledTemplate(page, {{"found", FindingsSection(content.discoveries, content.since)},
+                               {"data", ScriptData(text(data))},
+                               {"lines", Text(Packed(lines))}});
 }
 
 }  // namespace stiction

@@ -28,7 +28,7 @@
 namespace stiction {
 
 // Findings that stand in their page as text; the others are data, which its script shows.
-inline constexpr std::size_t kFindingsShown = 300;
+inline constexpr std::size_t kFindingsShown = 50;
 // Findings that the first page names.
 inline constexpr std::size_t kFindingsNamed = 6;
 

@@ -13,7 +13,7 @@ namespace stiction {
 namespace {
 
 constexpr const char* kForceColour = "#d00000";
-constexpr double kConeLength = 40, kBand = 44;  // pixels: of a side of a cone; of what stands below the picture
+constexpr double kConeLength = 40, kBand = 44;  // pixels: of a side of a cone; of the band below the picture
 
 Html Words(double x, double y, const std::string& text, const char* colour = "black") {
   return Tag("text", {{"x", Fixed(x)},
@@ -82,31 +82,34 @@ Html Pin(const Screen& screen, const Vector2<double>& at) {
          Tag("circle", {{"cx", x}, {"cy", y}, {"r", "2"}, {"fill", "black"}})("") + Html("\n");
 }
 
-// Below the picture: how long a metre and a newton are.
-Html Scales(const Screen& screen, double newton, bool has_forces) {
+// The way of gravity, about a point of the picture.
+Html Gravity(const Vector2<double>& seen, double size, const Vector2<double>& at) {
+  constexpr double kLong = 32;  // pixels
+  if (seen.norm() == 0) return {};
+  const Vector2<double> half = kLong / 2 * Vector2<double>(seen[0], -seen[1]).normalized();
+  return PixelArrow(at - half, at + half, "#2060c0") + Words(at[0] + std::abs(half[0]) + 10, at[1] + 5,
+                                                             fmt::format("gravity {:.3g} m/s\u00b2", size),
+                                                             "#2060c0");
+}
+
+// Below the picture, on a band of its own: how long a metre and a newton are, and where gravity pulls.
+Html Scales(const Screen& screen, double newton, bool has_forces, const Html& gravity) {
   constexpr double kLong = 120, kLeft = 20;  // pixels
-  const double y = screen.height + 16, metres = RoundNumber(kLong / screen.scale),
+  const double y = screen.height + kBand / 2, metres = RoundNumber(kLong / screen.scale),
                length = metres * screen.scale;
-  Html html = Tag("path", {{"d", fmt::format("M{0},{1:.1f} v8 m0,-4 h{2:.1f} m0,-4 v8", kLeft, y - 4, length)},
-                           {"stroke", "black"},
-                           {"fill", "none"}})("") +
-              Words(kLeft + length + 8, y + 5, fmt::format("{:g} m", metres));
+  Html html =
+      Tag("rect",
+          {{"y", Fixed(screen.height)}, {"width", "100%"}, {"height", Fixed(kBand)}, {"fill", "white"}})("") +
+      Tag("path", {{"d", fmt::format("M{0},{1:.1f} v8 m0,-4 h{2:.1f} m0,-4 v8", kLeft, y - 4, length)},
+                   {"stroke", "black"},
+                   {"fill", "none"}})("") +
+      Words(kLeft + length + 8, y + 5, fmt::format("{:g} m", metres));
+  html += gravity;
   if (!has_forces) return html;
   const double force = RoundNumber(kLong / (newton * screen.scale)), from = screen.width / 2;
   const double to = from + force * newton * screen.scale;
   return html + PixelArrow({from, y}, {to, y}, kForceColour) +
          Words(to + 8, y + 5, fmt::format("{:g} N; dashed: longer than it is drawn", force));
-}
-
-template <class Kind>
-Html Gravity(const SceneIn<Kind, double>& scene) {
-  const Vector2<double> seen = Seen(scene.gravity);
-  if (seen.norm() == 0) return {};
-  const Vector2<double> from(30, 20), along = 45 * Vector2<double>(seen[0], -seen[1]).normalized();
-  const Vector2<double> corner = from - along.cwiseMin(0.0);
-  return PixelArrow(corner, corner + along, "#2060c0") +
-         Words(corner[0] + std::max(along[0], 0.0) + 10, corner[1] + along[1] / 2 + 5,
-               fmt::format("gravity {:.3g} m/s\u00b2", scene.gravity.norm()), "#2060c0");
 }
 
 }  // namespace
@@ -127,7 +130,9 @@ std::string DrawExplained(const SceneIn<Kind, double>& scene, const View& view,
   MarksIn<Kind> marks;
   for (const auto& touch : touches) marks.contacts.push_back(touch.point);
   marks.forces = forces;
-  over += Gravity(scene) + Scales(screen, newton, LargestForce(marks) > 0);
+  const Html gravity =
+      Gravity(Seen(scene.gravity), scene.gravity.norm(), {0.3 * screen.width, screen.height + kBand / 2});
+  over += Tag("g", {{"class", "scales"}})(Scales(screen, newton, LargestForce(marks) > 0, gravity));
   return DrawSvg(scene, view, marks, newton, {std::move(over), kBand});
 }
 

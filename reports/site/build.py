@@ -9,6 +9,7 @@ is read from the data that the program wrote. The report is that of STORE, or th
 that holds anything else than a site is left alone."""
 
 import argparse
+import hashlib
 import html
 import json
 import posixpath
@@ -65,6 +66,7 @@ GALLERY = (
     ("exponential-pivots-5-frictionless", "The long way round",
      "Five contacts without friction, and 31 steps. Each further contact of this kind doubles them.", ()),
 )
+TO_GALLERY = ("../gallery.html", "Gallery")  # from a page under play/
 COQ = ROOT / "certify/coq/existence"
 
 
@@ -117,14 +119,14 @@ class Site:
         """Writes the page of a run; its data, as the program put it there."""
         name = f"play/{Path(file).name}.html"
         text = self.ask("replay", f"corpus/{file}.json", *options, "--html", "-", codes=(0, 1, 3))
-        self.write(name, with_way_back(text))
+        self.write(name, with_way_back(text, *TO_GALLERY))
         return name, json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])
 
     def simulated(self, file):
         name = f"play/{Path(file).name}.html"
         with tempfile.TemporaryDirectory() as folder:
             self.ask("simulate", f"corpus/{file}.json", "--seconds", "0.2", "-o", f"{folder}/out")
-            self.write(name, with_way_back(Path(folder, "out/animation.html").read_text()))
+            self.write(name, with_way_back(Path(folder, "out/animation.html").read_text(), *TO_GALLERY))
         return name
 
     # ---- Pages ----
@@ -215,6 +217,13 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
             shutil.copytree(ROOT / EXAMPLE, self.out / "report")
         else:
             self.ask("report", Path(store).resolve(), "-o", self.out / "report", codes=(0, 4))
+        folder, sums = self.out / "report", self.out / "report/SHA256SUMS"
+        lines = sums.read_text()
+        for page in folder.glob("*.html"):
+            self.write(f"report/{page.name}", with_way_back(page.read_text(), "../index.html", "stiction"))
+            lines = re.sub(rf"^\w+(  {re.escape(page.name)})$",
+                           rf"{hashlib.sha256(page.read_bytes()).hexdigest()}\1", lines, flags=re.M)
+        sums.write_text(lines)
 
     # ---- Documentation ----
 
@@ -279,7 +288,12 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
         target = posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
         copy = self.out / "docs" / target
         copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(ROOT / target, copy)
+        if target.endswith(".html"):
+            here = posixpath.dirname(f"docs/{target}")
+            copy.write_text(with_way_back((ROOT / target).read_text(), posixpath.relpath("docs/index.html", here),
+                                          "Documentation"))
+        else:
+            shutil.copyfile(ROOT / target, copy)
         return posixpath.relpath(f"docs/{target}", posixpath.dirname(page_of(name)))
 
 
@@ -288,8 +302,8 @@ def page_of(name):
     return "docs/" + re.sub(r"(^|/)README\.md$", r"\1index.md", name).removesuffix(".md") + ".html"
 
 
-def with_way_back(page):
-    return page.replace("<body>", '<body>\n<p class="kicker"><a href="../gallery.html">Gallery</a></p>', 1)
+def with_way_back(page, href, name):
+    return page.replace("<body>", f'<body>\n<p class="kicker"><a href="{href}">{name}</a></p>', 1)
 
 
 def slug(text, _):
@@ -334,7 +348,7 @@ def ending(run):
         return f"wrong by {rounded['residual']:.2g} over doubles, and refused; run again, exactly, it finds forces"
     return {"solved": "finds forces",
             "cycle": f"loops for ever, every {replay['period']} drives",
-            "ray": "runs off: a force grows without bound",
+            "ray": "takes a step without limit: a force grows for ever",
             }.get(replay["outcome"], html.escape(run["end"].split(";")[0]))
 
 

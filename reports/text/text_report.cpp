@@ -21,6 +21,7 @@ namespace stiction {
 namespace {
 
 constexpr std::size_t kShown = 10;       // loops of a list
+constexpr std::size_t kShownOfTwo = 5;   // likewise on two screens
 constexpr int kMostRowsInNumbers = 12;   // of a matrix on the page
 constexpr std::size_t kLongestWord = 9;  // of its numbers
 
@@ -32,7 +33,7 @@ std::string InWords(const std::string& label) {
       {"cycle", "loop for ever"},
       {"stall", "loop inside one drive"},
       {"singular", "no direction of the forces exists"},
-      {"ray", "a step without end"},
+      {"ray", "a step without limit"},
       {"limit", "budget spent before an end"},
       {"undecided", "intervals cannot tell"},
       {"wrong-answer", "doubles: solved, and it is not"}};
@@ -223,14 +224,20 @@ std::string SimplestText(const StoreTotals& t) {
 
 // ---- The page's own sections ----
 
-// A table of failures for each policy; `names` stand before the runs.
-std::string FailuresByPolicy(const Record& record, const By& names, const char* title) {
+// A table of failures for each policy, on two screens for one; `names` stand before the runs.
+std::string FailuresByPolicy(const Record& record, const By& names, const char* title, Extent extent) {
   By by = names;
   by.insert(by.begin(), "policy");
   std::string columns;
   for (const std::string& name : by) columns += name == "friction" ? "friction=mu " : name + " ";
   columns += "runs #loops loops=in_a_million_[95_%] #singular #ray=rays";
-  return TextByPolicy(Select(FailuresTable(record, by), columns, ""), title);
+  const Table table = Select(FailuresTable(record, by), columns, "");
+  if (extent == Extent::kAll) return TextByPolicy(table, title);
+  const std::map<std::string, Table> parts = SplitBy(table, "policy");
+  if (parts.empty()) return "";
+  const auto paper = parts.find("paper");
+  const auto& [policy, part] = paper == parts.end() ? *parts.begin() : *paper;
+  return Paragraph(fmt::format(fmt::runtime(title), policy)) + ToText(part);
 }
 
 // A, b and mu, if they fit.
@@ -274,7 +281,7 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
   return text;
 }
 
-std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
+std::string NewLoops(const StoreTotals& t, const KnownCase& known_as, std::size_t shown) {
   std::vector<std::pair<std::string, std::int64_t>> unknown;
   std::int64_t loops = 0;
   for (const auto& [signature, count] : t.record.signatures) {
@@ -290,9 +297,9 @@ std::string NewLoops(const StoreTotals& t, const KnownCase& known_as) {
   std::stable_sort(unknown.begin(), unknown.end(),
                    [](const auto& left, const auto& right) { return left.second > right.second; });
   Table table{"new", "", Columns("signature* runs")};
-  for (std::size_t i = 0; i < std::min(kShown, unknown.size()); ++i)
+  for (std::size_t i = 0; i < std::min(shown, unknown.size()); ++i)
     table.Add({unknown[i].first, unknown[i].second});
-  if (unknown.size() > kShown) text += Paragraph(fmt::format("The {} that were met most often:", kShown));
+  if (unknown.size() > shown) text += Paragraph(fmt::format("The {} that were met most often:", shown));
   return text + ToText(table);
 }
 
@@ -302,23 +309,46 @@ std::string WithoutFlags(const std::string& build) {
   return first == build.npos ? build : build.substr(0, build.find(',', first + 1));
 }
 
-// But for machines and processor times, which `status` tells: equal searches give equal reports.
-std::string SearchedText(const Store& store, const StoreTotals& t) {
+// Rates under every policy, by contacts and friction, too; or by generator, under the first one.
+std::string RatesText(const StoreTotals& t, Extent extent) {
+  if (t.counts.runs == 0) return "";
+  std::string text = "\n" + Heading("How often it fails, in exact arithmetic");
+  if (extent == Extent::kTwoScreens)
+    return text + FailuresByPolicy(t.record, {"generator"}, "Policy {}:", extent);
+  return text + FailuresByPolicy(t.record, {"generator", "contacts"}, "Policy {}:", extent) + "\n" +
+         Heading("The same by friction coefficient") +
+         Paragraph(
+             "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
+             "units of the tangents make another mu of it.") +
+         FailuresByPolicy(t.record, {"friction"}, "Policy {}, all generators together:", extent);
+}
+
+// But for machines and processor times, which `status` tells: equal searches give equal reports. On two screens
+// what makes its problems.
+std::string SearchedText(const Store& store, const StoreTotals& t, const std::string& file, Extent extent) {
   const CampaignIdentity& identity = store.identity();
   std::string text = "\n" + Heading("What was searched");
   const Json definition = ToldDefinition(identity);
   if (definition.is_object()) {
     for (const auto& [key, value] : definition.items()) {
-      if (key != "format" && key != "version") text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
+      const bool makes_problems = key == "generators" || key == "contacts" || key == "mu" || key == "note";
+      if (key != "format" && key != "version" && (makes_problems || extent == Extent::kAll))
+        text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
     }
   } else {
     text += Paragraph(identity.definition);
   }
   const Json policies = Json::parse(identity.policies, nullptr, false);
-  text += Paragraph("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
+  if (extent == Extent::kAll)
+    text += Paragraph("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
   text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
-  for (const std::string& build : t.work.builds) text += Paragraph("build: " + WithoutFlags(build));
-  return text;
+  for (const std::string& build : t.work.builds) {
+    if (extent == Extent::kAll || &build == &*t.work.builds.begin())
+      text += Paragraph("build: " + WithoutFlags(build));
+  }
+  if (extent == Extent::kAll) return text;
+  return text + Paragraph("By contacts, friction and every policy, with the campaign in full:", 0) +
+         Command(fmt::format("{} report {} --text --all", ProgramName(), ShellWord(file)));
 }
 
 std::string Findings(const StoreTotals& t) {
@@ -338,20 +368,12 @@ std::string SummaryText(const Store& store, const std::string& file) {
          Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
 }
 
-std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as) {
+std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as, Extent extent) {
   const StoreTotals t = TotalsOf(store);
-  std::string text = HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
-                     FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as);
-  if (t.counts.runs > 0) {
-    text += "\n" + Heading("How often it fails, in exact arithmetic") +
-            FailuresByPolicy(t.record, {"generator", "contacts"}, "Policy {}:") + "\n" +
-            Heading("The same by friction coefficient") +
-            Paragraph(
-                "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
-                "units of the tangents make another mu of it.") +
-            FailuresByPolicy(t.record, {"friction"}, "Policy {}, all generators together:");
-  }
-  return text + SearchedText(store, t);
+  const std::size_t shown = extent == Extent::kAll ? kShown : kShownOfTwo;
+  return HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
+         FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as, shown) + RatesText(t, extent) +
+         SearchedText(store, t, file, extent);
 }
 
 }  // namespace stiction

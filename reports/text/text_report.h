@@ -21,9 +21,15 @@ using KnownCase = std::function<std::string_view(std::string_view signature)>;
 
 // A screen: loops, other failures, existence, doubles, what the numbers are worth, the simplest loops.
 std::string SummaryText(const Store& store, const std::string& file);
-// A page: the same, with rates by generator, contacts and friction, the loops that are new, the simplest loop
-// in numbers, what was searched, and commands that replay it.
-std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as);
+// How much of it a page says.
+enum class Extent { kTwoScreens, kAll };
+
+// A page: the same, with rates, the loops that are new, the simplest loop in numbers, what was searched, and
+// commands that replay it. Two screens, at most 100 lines of 80 columns: rates are by generator, under the
+// policy paper or the first, and of the campaign stands what makes its problems. All: rates are by contacts and
+// friction, too, under every policy, and the campaign is told in full.
+std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as,
+                       Extent extent = Extent::kAll);
 
 }  // namespace stiction
 

@@ -381,7 +381,7 @@ test('findings are named by what happens, and their links play them', async () =
   }
 });
 
-test('ten thousand findings open, in two seconds where times are asked for, and all are found', async t => {
+test('ten thousand findings open, in a second where times are asked for, and all are found', async t => {
   const times = [];
   for (let k = 0; k < (process.env.STICTION_TIMES === undefined ? 1 : 3); ++k) {
     await inFindings('large', async page => {
@@ -400,7 +400,7 @@ test('ten thousand findings open, in two seconds where times are asked for, and 
   }
   const taken = `opened in ${times.map(Math.round).join(', ')} ms`;
   t.diagnostic(taken);
-  if (process.env.STICTION_TIMES !== undefined) assert.ok(times.sort((a, b) => a - b)[1] < 2000, taken);
+  if (process.env.STICTION_TIMES !== undefined) assert.ok(times.sort((a, b) => a - b)[1] < 1000, taken);
 });
 
 // ---- For everybody ----
@@ -539,7 +539,7 @@ test('without a script all texts and tables stand there', async () => {
   }, {javaScriptEnabled: false});
   await inFindings('small', async page => {
     const all = csv('small', 'findings.csv').filter(row => row.state !== 'counted');
-    assert.equal(await page.locator('#findings tr.finding').count(), Math.min(300, all.length));
+    assert.equal(await page.locator('#findings tr.finding').count(), Math.min(50, all.length));
   }, {javaScriptEnabled: false});
 });
 

@@ -7,6 +7,7 @@ The bundle is compared by viewer_test.py. What needs npm's packages is SKIPPED, 
 registry.
 """
 
+import base64
 import csv
 import html
 import json
@@ -17,6 +18,7 @@ import sqlite3
 import subprocess
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
 import cli
@@ -95,8 +97,13 @@ class Page(cli.TestCase):
         if done.code != 0:
             raise AssertionError(f"{arguments}: exit {done.code}\n{done.err}")
 
-    def data(self, page="findings.html"):
+    def data(self, page):
         return json.loads(re.search(r'id="data">(.*?)</script>', (self.report / page).read_text(), re.S)[1])
+
+    def listed(self):
+        """The findings of their page, a line each."""
+        lines = re.search(r'id="lines">(.*?)</script>', (self.report / "findings.html").read_text(), re.S)[1]
+        return [json.loads(line) for line in zlib.decompress(base64.b64decode(lines)).decode().splitlines()]
 
     def test_what_is_drawn_is_what_the_store_holds(self):
         tallies, _ = cli.total(self.store)
@@ -136,17 +143,20 @@ class Page(cli.TestCase):
 
     def test_every_finding_of_the_table_is_in_the_data(self):
         rows = {row["signature"]: row for row in tables(self.report / "findings.csv") if row["state"] != "counted"}
-        findings = self.data()["findings"]
+        findings = self.listed()
         self.assertEqual(sorted(rows), sorted(finding["signature"] for finding in findings))
         for finding in findings:
             row = rows[finding["signature"]]
             said = [finding[key] for key in ("kind", "met", "state", "contacts")]
             self.assertEqual(said, [row["kind"], int(row["count"]), row["state"], int(row["contacts"])])
             self.assertEqual(finding["files"][0], row["problem_file"])
+        choices = self.data("findings.html")["choices"]
+        for field in ("kind", "smallest", "generator", "policy", "state"):
+            self.assertEqual(choices[field], sorted({str(finding[field]) for finding in findings}), field)
 
     def test_the_first_page_has_few_findings_and_little_weight(self):
         first = (self.report / "index.html").read_text()
-        signatures = [finding["signature"] for finding in self.data()["findings"]]
+        signatures = [finding["signature"] for finding in self.listed()]
         self.assertGreater(len(signatures), 10)
         self.assertEqual([finding["signature"] for finding in self.data("index.html")["findings"]], signatures[:6])
         for signature in signatures[6:]:
@@ -155,13 +165,13 @@ class Page(cli.TestCase):
         self.assertLess(sum((self.report / name).stat().st_size for name in PAGES[:2]), 1000000)
 
     def test_findings_begin_with_loops_finished_ones_first(self):
-        order = [(not finding["loop"], finding["state"] != "finished") for finding in self.data()["findings"]]
+        order = [(not finding["loop"], finding["state"] != "finished") for finding in self.listed()]
         self.assertEqual(order, sorted(order))
         self.assertGreater(len(set(order)), 1)
 
     def test_every_scene_has_its_picture(self):
         pictures = 0
-        for finding in self.data()["findings"]:
+        for finding in self.listed():
             problem = json.loads((self.report / finding["files"][1]).read_text())
             picture = finding["files"][5]
             self.assertEqual(picture != "", "scene" in problem, finding["signature"])

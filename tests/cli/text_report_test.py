@@ -42,6 +42,23 @@ class TextReport(cli.TestCase):
         self.assertIn(said, " ".join(summary.split()))
         self.assertLess(text.index("loops for ever"), text.index("Complete driving never failed"))
 
+    def test_the_text_fits_two_screens_and_all_of_it_is_asked_for(self):
+        many = self.made / "many.store"
+        if not many.exists():  # every usual generator, two policies
+            self.search("many", "--problems", 300000, "--policy", "paper", "ties=contacts", "--finishing", 100, "--threads", 2)
+        for store in (self.high, many):
+            said = subprocess.run([cli.program, "report", store, "--text"], capture_output=True, text=True,
+                                  env=dict(os.environ, COLUMNS="80")).stdout
+            self.assertLessEqual(len(said.splitlines()), 100)
+            self.assertIn(f"report {store} --text --all", said)
+            whole = self.succeeds("report", store, "--text", "--all").out
+            self.assertIn("The same by friction coefficient", whole)
+            self.assertIn("unit_problems: ", whole)
+            self.assertNotIn("unit_problems: ", said)
+        self.assertNotIn("Policy ties=contacts:", said)
+        self.assertIn("Policy ties=contacts:", whole)
+        self.refuses("report", self.high, "--all", "-o", self.folder / "out", says="found --all without --text")
+
     def test_the_commands_of_the_text_replay_its_loop(self):
         text = self.succeeds("report", self.high, "--text").out
         commands = [line.split() for line in text.splitlines() if line.startswith("    stiction ")]

@@ -163,7 +163,7 @@ def search(program, scratch):
             said = program.said("search", *words, "--seed", 7, "--finishing", 100, "--threads", 1, "--store", store)
             if not said.startswith(("exit 0", "exit 4")):
                 return said
-            parts = [tables_of(store), program.said("report", store, "--text")]
+            parts = [tables_of(store), program.said("report", store, "--text", "--all")]
             program.said("report", store, "-o", report)
             for file in sorted(report.glob("*.csv")):
                 if file.name != "work.csv":

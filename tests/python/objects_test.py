@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """objects_test.py PROGRAM SOURCES: every public object is shown in few lines, compared, copied and pickled."""
 import copy
+import json
 import pickle
 import re
 import sys
@@ -8,6 +9,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 import stiction
 
 SOURCES = Path(sys.argv[2])
@@ -48,6 +50,25 @@ class Objects(unittest.TestCase):
         for left, right in zip(made(), made()):
             if not isinstance(left, stiction.Answer):  # statistics may hold times
                 self.assertEqual(left, right)
+
+    def test_friction_without_a_bound_is_read_as_of_a_file(self):
+        for name in ("plane", "space"):
+            dimension = 2 if name == "plane" else 3
+            A = [[2 if i == j else 1 for j in range(2 * dimension)] for i in range(2 * dimension)]
+            b = [-1] * (2 * dimension)
+            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "p.json"
+                file.write_text(json.dumps({"A": A, "b": b, "mu": ["inf", "1/2"], "dimension": dimension}))
+                expected = stiction.load(file)
+                self.assertEqual(expected.kinds, ["frictionless", *["bilateral"] * (dimension - 1), "static"])
+                for infinite in (float("inf"), "inf", np.float32("inf")):
+                    mine = stiction.Problem(A, b, [infinite, "1/2"], dimension=dimension)
+                    self.assertEqual(mine, expected)
+                self.assertEqual(stiction.solve(mine).outcome, "solved")
+        with self.assertRaisesRegex(ValueError, r"mu\[0\]: found -inf"):
+            stiction.Problem([[1, 0], [0, 1]], [-1, 0], float("-inf"))
+        with self.assertRaisesRegex(ValueError, r"mu\[0\]: found inf"):
+            stiction.Problem([[1]], [-1], float("inf"), kinds=["frictionless"])
 
     def test_problems_are_equal_by_their_numbers(self):
         eye = [[1, 0], [0, 1]]

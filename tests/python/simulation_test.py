@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """simulation_test.py PROGRAM SOURCES: simulations of the Python package are those of the program, to the bit."""
 import csv
+import html
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -67,6 +69,19 @@ class Simulations(unittest.TestCase):
         self.assertEqual((run.contacts["normal_N"].dtype, run.contacts["does"].dtype.kind), (np.float64, "U"))
         self.assertAlmostEqual(run.positions[-1, 0, 1], -5, delta=0.1)
         self.assertIn("101 states, 1 bodies", repr(run))
+
+    def test_a_notebook_shows_the_page_that_plays_it(self):
+        run = stiction.simulate(SCENES / "incline-slides.json", seconds=0.5)
+        shown = html.unescape(run._repr_html_())
+        self.assertTrue(shown.startswith("<iframe srcdoc="))
+        data = json.loads(re.search(r'id="data">(.*?)</script>', shown, re.S)[1])
+        self.assertEqual(data["motions"][0]["word"], "slides")
+        self.assertEqual(len(data["frames"]), 16)
+        for frame in data["frames"]:  # energy of the state that it shows
+            at = int(np.argmin(np.abs(run.times - frame["time"])))
+            self.assertAlmostEqual(run.times[at], frame["time"], delta=1e-9)
+            self.assertAlmostEqual(run.energy["kinetic_J"][at], frame["energy"][0], delta=1e-12)
+        self.assertEqual(run.page(), run.page())
 
     def test_what_is_wrong_is_refused_in_a_line(self):
         with self.assertRaisesRegex(ValueError, "step: found 2"):

@@ -13,6 +13,7 @@
 #include "corpus/json.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
+#include "tests/reports/packed.h"
 
 namespace stiction {
 namespace {
@@ -38,19 +39,6 @@ AppliedForceIn<Plane> ForceOf(int on, int from) {
   return force;
 }
 
-std::vector<std::uint8_t> FromBase64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0;
-  int many = 0;
-  for (const char c : text.substr(0, text.find('='))) {
-    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
-    many += 6;
-    if (many >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (many -= 8)));
-  }
-  return bytes;
-}
-
 TEST_CASE(
     "animation: a force acts on the body that moves, has its rows and its friction, and those of joints are "
     "left out") {
@@ -70,13 +58,14 @@ TEST_CASE(
   CHECK(data["contacts"][0] == Json({{"bodies", {1, 0}}, {"kind", "static"}, {"rows", 2}, {"mu", 0.5}}));
   const std::vector<std::uint8_t> bytes = FromBase64(data["frames"][0]["forces"].get<std::string>());
   constexpr std::size_t kBytes = 18;  // of a force in the plane
-  REQUIRE(bytes.size() == 2 * kBytes);
+  constexpr std::size_t kHead = 4;    // how many stand in the frame before, and how many not
+  REQUIRE(bytes.size() == kHead + 2 * kBytes);
   const auto word = [&bytes](std::size_t at) {
     return static_cast<std::int16_t>(bytes[at] | bytes[at + 1] << 8);
   };
   for (const int side : {0, 1}) {
     INFO(side);
-    const std::size_t begin_of = side * kBytes;
+    const std::size_t begin_of = kHead + side * kBytes;
     const double sign = side == 0 ? 1 : -1;
     CHECK(word(begin_of) == side);
     CHECK(word(begin_of + 6) / 10.0 == Approx(sign * pixels).margin(0.06));
@@ -85,6 +74,28 @@ TEST_CASE(
     std::memcpy(rows.data(), &bytes[begin_of + 10], sizeof rows);
     CHECK(rows == std::array<float, 2>{3, -1});
   }
+}
+
+TEST_CASE("animation: a frame says of what stands in the one before how much of it does") {
+  const Scene<double> scene = DiscOnFloor();
+  View view;
+  view.Include(scene);
+  MarksIn<Plane> two, one;
+  two.forces = {ForceOf(1, 0), ForceOf(0, 1)};
+  one.forces = {two.forces[0], two.forces[0]};
+  const std::string page = AnimationPage<Plane>(
+      scene, view, {RecordFrame(scene, 0, two), RecordFrame(scene, 0.1, two), RecordFrame(scene, 0.2, one)},
+      0.1, 30);
+  const std::string begin = "id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  const Json data = ParseJson(page.substr(from, page.find("</script>", from) - from), "data");
+  const auto bytes = [&data](int frame) {
+    return FromBase64(data["frames"][frame]["forces"].get<std::string>());
+  };
+  CHECK(bytes(1) == std::vector<std::uint8_t>{2, 0, 0, 0});
+  const std::vector<std::uint8_t> last = bytes(2);
+  REQUIRE(last.size() == 4 + 18);
+  CHECK(std::vector(last.begin(), last.begin() + 4) == std::vector<std::uint8_t>{1, 0, 1, 0});
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST_CASE("text: every number is a sum over the units") {
         Contains("Found in 2 groups; of 1 finished, 0 loop under every policy that stiction distinguishes"));
     CHECK_THAT(text, Contains("of 92 loops 6 have none in the period, and 4 have nothing else there"));
     CHECK_THAT(text, Contains("loop for ever cycle 4 " + RateText(4, 120)));
-    CHECK_THAT(text, Contains("a step without end ray 2 " + RateText(2, 120)));
+    CHECK_THAT(text, Contains("a step without limit ray 2 " + RateText(2, 120)));
     CHECK_THAT(text, Contains("FAILED on 2: of 26 problems given to complete driving 24 solved"));
     CHECK_THAT(text, Contains("on 34 problems (all contact modes tried of 38): 46 disagreements"));
     CHECK_THAT(text, Contains("62 of 58 audited problems; 74 gave up something"));

@@ -227,6 +227,7 @@ const remarks = {
   large: () =>
       ['A of this frame has more than 10,000 entries, too many for a page. ', command(),
        ' writes its problem.'],
+  without: () => ['This page holds no problems of its frames. ', command(), ' writes them.'],
   room: () =>
       ['The problems of frames before this one fill what a page holds, 200 kB. ', command(), ' writes all.'],
 };

@@ -21,8 +21,8 @@ export class Chart {
     const all = [...series.flatMap(({values}) => values), ...atLeast].filter(Number.isFinite);
     const low = Math.min(...all), high = Math.max(...all), end = Math.max(times.at(-1), Number.MIN_VALUE);
     const across = time => kLeft + time / end * (kWidth - kLeft - kRight);
-    const up = value => high === low ? (kTop + kHeight - kBottom) / 2 :
-                                       kTop + (high - value) / (high - low) * (kHeight - kTop - kBottom);
+    const span = high - low || 1;  // of a constant, a line at the bottom
+    const up = value => kTop + (low + span - value) / span * (kHeight - kTop - kBottom);
     this.x = times.map(across);
     this.cursor = svgElement('line', {class: 'cursor', y1: kTop, y2: kHeight - kBottom});
     const label = (x, y, anchor, text) => svgElement('text', {x, y, 'text-anchor': anchor}, text);

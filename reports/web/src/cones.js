@@ -49,6 +49,13 @@ function words(f, layout) {
   return `${names} = ${layout.rows === 1 ? rows[0] : `(${rows.join(', ')})`}`;
 }
 
+// Of "f_N" N as an index.
+const indexed = text => text.split(/_(N|Fx|Fy|F)\b/).map((part, i) => i % 2 === 1 ? element('sub', {}, part) : part);
+
+// The name of an axis: "f", an index, and the unit.
+const axisName = (place, index) => svgElement(
+    'text', place, 'f', svgElement('tspan', {dy: 3, 'font-size': '8px'}, index), svgElement('tspan', {dy: -3}, ', N'));
+
 // ---- A picture -------------------------------------------------------------------------------
 
 function arrow(from, to, style) {
@@ -126,10 +133,8 @@ class ConeInPlane {
   labels() {
     const apex = this.at([0, 0]);
     return [
-      svgElement(
-          'text', {x: kWidth - 4, y: round(apex[1]) - 5, 'text-anchor': 'end'},
-          this.layout.rows > 1 ? 'fF, N' : ''),
-      svgElement('text', {x: kWidth / 2 + 6, y: 12}, 'fN, N'),
+      ...this.layout.rows > 1 ? [axisName({x: kWidth - 4, y: round(apex[1]) - 6, 'text-anchor': 'end'}, 'F')] : [],
+      axisName({x: kWidth / 2 + 6, y: 12}, 'N'),
       ...this.layout.rows > 1 ? newtonsAt(x => this.at([x, 0]), kWidth / 2 / this.across) : [],
       ...newtonsAt(x => this.at([0, x]), kHeight / this.up),
     ];
@@ -192,7 +197,10 @@ export class Cones {
                                                 picture: new (layout.rows === 3 ? DiscInSpace : ConeInPlane)(
                                                     runs, layout, reach)
                                               }));
-    this.node = element('div', {class: 'cones'});
+    const many = this.figures.length > 9;
+    this.node = element(
+        'div',
+        many ? {class: 'cones many', tabindex: '0', role: 'group', 'aria-label': 'Friction cones'} : {class: 'cones'});
   }
 
   get areToScale() {
@@ -224,6 +232,6 @@ export class Cones {
             ...shapes, ...picture.labels()),
         element(
             'figcaption', {}, element('strong', {}, `Contact ${number}`), ` ${mu}`,
-            ...said.map((text, i) => element('span', {class: `run-${i}`}, text))));
+            ...said.map((text, i) => element('span', {class: `run-${i}`}, ...indexed(text)))));
   }
 }

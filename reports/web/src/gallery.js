@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are
-// taken as they stand, with their pictures; the others are made of the data.
+// taken as they stand, with their pictures; the others are made of the data, which is unpacked when it is asked for:
+// a page with ten thousand opens as fast as one with ten.
 import {byId, element} from './dom.js';
 import {addressOf, nameOfFinding} from './names.js';
 
@@ -20,8 +21,6 @@ const columns = [
   {by: finding => finding.grid ?? ''}, {by: finding => finding.minimized_grid ?? ''},
   {by: finding => finding.nonzeros === undefined ? Infinity : finding.nonzeros * 1e6 + finding.bits}
 ];
-
-const unique = values => [...new Set(values)].sort();
 
 // ---- One finding ----
 
@@ -105,24 +104,37 @@ function more(finding) {
 // ---- The table ----
 
 class Gallery {
-  constructor(findings, table) {
-    this.findings = findings.map((finding, place) => ({...finding, place, text: textOf(finding)}));
+  // `count` findings, of which the first are here; `choices`: the values of the fields that are filtered by. `lines()`:
+  // all, a line of JSON each.
+  constructor({count, findings, choices}, lines, table) {
+    this.count = count;
+    this.unpack = lines;
+    this.read = findings.map((finding, place) => ({...finding, place}));
     this.body = table.tBodies[0];
     this.rows = new Map();
     const written = [...this.body.rows];
     for (let i = 0; i + 1 < written.length; i += 2) {
-      written[i].cells[0].replaceChildren(...headOf(findings[i / 2]));
-      this.rows.set(findings[i / 2].signature, [written[i], written[i + 1]]);
+      const finding = this.at(i / 2);
+      written[i].cells[0].replaceChildren(...headOf(finding));
+      this.rows.set(finding.signature, [written[i], written[i + 1]]);
     }
     this.sorted = null;
     this.down = false;
     this.first = 0;
-    this.makeControls();
+    this.makeControls(choices);
     this.makeHeads(table);
     this.filter();
   }
 
-  makeControls() {
+  at(place) {
+    if (this.read[place] === undefined) {
+      this.lines ??= this.unpack();
+      this.read[place] = {...JSON.parse(this.lines[place]), place};
+    }
+    return this.read[place];
+  }
+
+  makeControls({kind, smallest, generator, policy, state, change = []}) {
     const select = (name, label, values) => {
       if (values.length < 2) return [];
       const node = element(
@@ -136,15 +148,14 @@ class Gallery {
     this.search =
         element('input', {type: 'search', id: 'gallery-search', autocomplete: 'off', spellcheck: 'false'});
     this.search.addEventListener('input', () => this.filter());
-    const changes = unique(this.findings.map(finding => finding.change ?? '')).filter(change => change !== '');
     const controls = element(
         'div', {class: 'controls', role: 'search'}, element('label', {class: 'choice'}, 'Search ', this.search),
-        ...select('kind', 'kind', unique(this.findings.map(finding => finding.kind))),
-        ...select('smallest', 'contacts', unique(this.findings.map(finding => String(finding.smallest)))),
-        ...select('generator', 'generator', unique(this.findings.map(finding => finding.generator))),
-        ...select('policy', 'policy', unique(this.findings.map(finding => finding.policy))),
-        ...select('state', 'state', unique(this.findings.map(finding => finding.state))),
-        ...(changes.length > 0 ? select('change', 'since', ['changed', ...changes]) : []));
+        ...select('kind', 'kind', kind),
+        ...select('smallest', 'contacts', smallest),
+        ...select('generator', 'generator', generator),
+        ...select('policy', 'policy', policy),
+        ...select('state', 'state', state),
+        ...(change.length > 0 ? select('change', 'since', ['changed', ...change]) : []));
     this.said = element('p', {class: 'said', role: 'status'});
     const button = (text, step) => {
       const node = element('button', {type: 'button'}, text);
@@ -187,16 +198,17 @@ class Gallery {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const wanted =
         this.choices.filter(([, node]) => node.value !== '').map(([name, node]) => [name, node.value]);
-    const fits = finding => words.every(word => finding.text.includes(word)) &&
+    const fits = finding => words.every(word => (finding.text ??= textOf(finding)).includes(word)) &&
         wanted.every(
             ([name, value]) => value === 'changed' ? finding.change !== '' : String(finding[name]) === value);
-    this.shown = this.findings.filter(fits);
+    this.shown = Array.from({length: this.count}, (_, place) => place);
+    if (words.length + wanted.length > 0) this.shown = this.shown.filter(place => fits(this.at(place)));
     if (this.sorted !== null) {
       const {by} = columns[this.sorted], sign = this.down ? -1 : 1;
-      const keys = new Map(this.shown.map(finding => [finding, by(finding)]));
+      const keys = new Map(this.shown.map(place => [place, by(this.at(place))]));
       this.shown.sort((left, right) => {
         const a = keys.get(left), b = keys.get(right);
-        return a < b ? -sign : a > b ? sign : left.place - right.place;
+        return a < b ? -sign : a > b ? sign : left - right;
       });
     }
     this.first = 0;
@@ -215,15 +227,15 @@ class Gallery {
 
   show() {
     const last = Math.min(this.first + pageSize, this.shown.length);
-    this.body.replaceChildren(...this.shown.slice(this.first, last).flatMap(finding => this.rowsOf(finding)));
+    this.body.replaceChildren(...this.shown.slice(this.first, last).flatMap(place => this.rowsOf(this.at(place))));
     this.before.disabled = this.first === 0;
     this.after.disabled = last >= this.shown.length;
     this.order.hidden = this.sorted === null;
-    const all = count(this.findings.length);
+    const all = count(this.count);
     this.said.textContent = this.shown.length === 0 ?
         `None of ${all} findings fits.` :
         `${count(this.first + 1)} to ${count(last)} of ${counted(this.shown.length, 'finding')}` +
-            (this.shown.length === this.findings.length ? '' : `, of ${all} in all`);
+            (this.shown.length === this.count ? '' : `, of ${all} in all`);
   }
 }
 
@@ -235,11 +247,8 @@ const textOf =
                    .join(' ')
                    .toLowerCase();
 
-// `played`: the dimension of problems that a page plays; 0: there is none.
-export function showGallery(findings, played) {
-  plays = played;
-  const place = byId('gallery');
-  if (place === null) return;
-  const table = document.querySelector('#findings > .scroll > table');
-  new Gallery(findings, table);
+// `data`: that of the page (../data.md); `lines()`: as of the table.
+export function showGallery(data, lines) {
+  plays = data.plays;
+  if (byId('gallery') !== null) new Gallery(data, lines, document.querySelector('#findings > .scroll > table'));
 }

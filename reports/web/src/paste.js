@@ -67,7 +67,7 @@ const kEnds = {
   cycle: ({start, period}) =>
       `never ends: the state after ${start} drives comes back ${period} drives later, for ever.`,
   stall: () => 'never ends: within one drive a state comes back, for ever.',
-  ray: () => 'runs off: nothing limits its last step, along which forces grow without bound.',
+  ray: () => 'takes a step without limit: along it the forces grow for ever.',
   singular: () => 'stops: it finds no direction in which to change the forces.',
   limit: () => 'did not end within what this page allows it.',
 };

@@ -4,6 +4,7 @@ import {forceArrow, layoutOf} from './cones.js';
 import {element, svgElement} from './dom.js';
 import {roundBelow, short, toDouble} from './numbers.js';
 
+const kBand = 36;       // pixels below the scene
 const kLongest = 0.24;  // arrow, of the picture's height
 
 export class Picture {
@@ -23,15 +24,20 @@ export class Picture {
           largest = Math.max(largest, Math.hypot(...this.forceOf(run, state, i)));
       }
     }
-    this.newton = largest === 0 ? 1 : kLongest * Number(this.svg.getAttribute('height')) / largest;
+    const [width, height] = ['width', 'height'].map(name => Number(this.svg.getAttribute(name)));
+    this.middle = height + kBand / 2;
+    this.width = width;
+    this.svg.setAttribute('height', height + kBand);
+    this.svg.setAttribute('viewBox', `0 0 ${width} ${height + kBand}`);
+    this.newton = largest === 0 ? 1 : kLongest * height / largest;
     this.node = frame;
-    this.ground = [...this.scaleOf(largest), ...this.gravityOf(data.picture.gravity)];
+    this.ground = [svgElement('rect', {class: 'band', y: height, width, height: kBand}), ...this.scaleOf(largest), ...this.gravityOf(data.picture.gravity)];
   }
 
-  // An arrow of a round number of newtons.
+  // An arrow of a round number of newtons, on a band below the scene, as the way of gravity is.
   scaleOf(largest) {
     if (largest === 0) return [];
-    const value = roundBelow(0.6 * largest), x = 14, y = Number(this.svg.getAttribute('height')) - 16;
+    const value = roundBelow(0.6 * largest), x = 14, y = this.middle;
     return [
       forceArrow([x, y], [x + this.newton * value, y], 'scale'),
       svgElement('text', {class: 'scale', x: x + this.newton * value + 8, y: y + 5}, `${short(value)} N`)
@@ -40,13 +46,13 @@ export class Picture {
 
   // The way of gravity, of which nothing is told where it is none.
   gravityOf(gravity) {
-    const size = Math.hypot(...gravity ?? [0, 0]), kArrow = 46;
+    const size = Math.hypot(...gravity ?? [0, 0]), kArrow = 26;
     if (size === 0) return [];
-    const from = [Number(this.svg.getAttribute('width')) - 34, 34 - Math.min(0, gravity[1] / size * kArrow)];
-    const to = gravity.map((g, i) => from[i] + g / size * kArrow);
+    const at = [this.width - 30, this.middle], along = gravity.map(g => g / size * kArrow / 2);
+    const [from, to] = [-1, 1].map(sign => at.map((x, i) => x + sign * along[i]));
     return [
       forceArrow(from, to, 'scale'),
-      svgElement('text', {class: 'scale', x: from[0] - 10, y: from[1] + 16, 'text-anchor': 'end'}, 'g')
+      svgElement('text', {class: 'scale', x: at[0] - 20, y: at[1] + 5, 'text-anchor': 'end'}, 'g')
     ];
   }
 

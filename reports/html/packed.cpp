@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/html/packed.h"
+
+#include <zlib.h>
+
+#include <string_view>
+
+#include "solver/problem/check.h"
+
+namespace stiction {
+
+std::string Base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? bytes[i + k] : 0);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+std::string Packed(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::vector<std::uint8_t> bytes(size);
+  const int code = compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size(),
+                             Z_DEFAULT_COMPRESSION);
+  STICTION_CHECK(code == Z_OK, "zlib: found an error, expected room for what it deflates");
+  bytes.resize(size);
+  return Base64(bytes);
+}
+
+}  // namespace stiction
