@@ -8,8 +8,8 @@
 
 namespace stiction {
 
-// simulate(text, source, seconds, step, rest, full), simulation_page of the same, and assemble(text, source, level, factors, full) of a scene
-// file's text.
+// simulate and simulation_page(text, source, seconds, step, rest, full), and assemble(text, source, level,
+// factors, full), of a scene file's text.
 void AddSimulate(pybind11::module_& module);
 
 }  // namespace stiction
