@@ -15,10 +15,10 @@ namespace stiction {
 // What makes the page again where it lies alone. Not the commit: a page that is kept beside the sources could
 // not name its own.
 struct ViewerOrigin {
-  std::string command;  // as a shell reads it
-  std::string version;  // of the program
-  std::string digest;   // of the problem (corpus/record/digest.h)
-  std::string report;   // the page of the report that it belongs to; empty: it stands alone
+  std::string command;      // as a shell reads it
+  std::string version;      // of the program
+  std::string digest;       // of the problem (corpus/record/digest.h)
+  std::string report = {};  // the page of the report that it belongs to; empty: it stands alone
 };
 
 // What a page plays.
