@@ -45,7 +45,9 @@ class TextReport(cli.TestCase):
     def test_the_text_fits_two_screens_and_all_of_it_is_asked_for(self):
         many = self.made / "many.store"
         if not many.exists():  # every usual generator, two policies
-            self.search("many", "--problems", 1000000, "--policy", "paper", "ties=contacts", "--finishing", 10)
+            campaign = self.file("c.json", {"format": "stiction-campaign", "version": 1, "unit_problems": 200,
+                                            "policies": ["paper", "ties=contacts"]})
+            self.search("many", campaign, "--problems", 5000, "--finishing", 1)
         for store in (self.high, many):
             said = subprocess.run([cli.program, "report", store, "--text"], capture_output=True, text=True,
                                   env=dict(os.environ, COLUMNS="80")).stdout
