@@ -22,6 +22,7 @@ class BulletContender : public DantzigContender {
   bool Solve(int k) override {
     Restore(k);
     for (double& bound : high_) bound = std::min(bound, double(BT_INFINITY));
+    for (double& bound : low_) bound = std::max(bound, -double(BT_INFINITY));
     return btSolveDantzigLCP(rows_, A_.data(), x_.data(), b_.data(), w_.data(), 0, low_.data(), high_.data(),
                              FrictionIndex(), scratch_);
   }

@@ -48,6 +48,8 @@ enum class SiconosMethod {
 };
 std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
 
+std::unique_ptr<Contender> MakeOurs();  // of this suite, as a library under test
+
 }  // namespace stiction
 
 #endif  // STICTION_BENCH_PEERS_CONTENDER_H_

@@ -77,6 +77,7 @@ class DantzigContender : public Contender {
     int row = 0;
     for (const auto& contact : problem.contacts) {
       const int normal = row++;
+      if (contact.kind == ContactKind::kBilateral) to.low[normal] = -std::numeric_limits<double>::infinity();
       if (!contact.HasFrictionRows()) continue;
       for (int k = 1; k < problem.dimension; ++k, ++row) {
         to.low[row] = -contact.mu;

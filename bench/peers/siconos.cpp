@@ -42,6 +42,24 @@ int SolverId(SiconosMethod method) {
   }
 }
 
+// As the solvers of friction take it: with rows of friction at every contact. Those that a frictionless contact
+// lacks are coupled with nothing, and mu = 0. `rows`: where each row of the problem is.
+PeerProblem WithAllRows(const PeerProblem& problem, std::vector<int>& rows) {
+  PeerProblem whole;
+  whole.dimension = problem.dimension;
+  whole.contacts = problem.contacts;
+  const int size = problem.dimension * static_cast<int>(problem.contacts.size());
+  whole.A = Eigen::MatrixXd::Identity(size, size);
+  whole.b = Eigen::VectorXd::Zero(size);
+  rows.clear();
+  for (int row = 0; row < size; ++row)
+    if (row % problem.dimension == 0 || problem.contacts[row / problem.dimension].HasFrictionRows())
+      rows.push_back(row);
+  whole.A(rows, rows) = problem.A;
+  whole.b(rows) = problem.b;
+  return whole;
+}
+
 // Static friction of the plane as a complementarity problem w = M z + q, three unknowns a contact:
 //   z = (fN, fF + mu fN, aF-)   w = (aN, aF+, mu fN - fF),   aF = aF+ - aF-
 PeerProblem PlanarLcp(const PeerProblem& problem) {
@@ -67,30 +85,23 @@ PeerProblem PlanarLcp(const PeerProblem& problem) {
 
 class SiconosContender : public Contender {
  public:
-  explicit SiconosContender(SiconosMethod method)
-      : method_(method), options_(solver_options_create(SolverId(method)), solver_options_delete) {
-    const bool is_newton =
-        method == SiconosMethod::kFriction3dNewton || method == SiconosMethod::kFriction3dHybrid;
-    numerics_set_verbose(0);
-    if (IsLcp() || method == SiconosMethod::kFriction2dLemke) return;
-    options_->dparam[SICONOS_DPARAM_TOL] = kTolerance;
-    if (method == SiconosMethod::kFriction3dHybrid)
-      options_->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
-          SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_VI_EG_NSN;
-    if (!is_newton) options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
-  }
+  explicit SiconosContender(SiconosMethod method) : method_(method) { numerics_set_verbose(0); }
 
   void Load(const std::vector<PeerProblem>& problems) override {
     loaded_ = std::vector<Loaded>(problems.size());
     for (std::size_t k = 0; k < problems.size(); ++k) {
-      const bool made = method_ == SiconosMethod::kPlanarLcp;
-      loaded_[k].A = made ? PlanarLcp(problems[k]).A : problems[k].A;
-      loaded_[k].b = made ? PlanarLcp(problems[k]).b : problems[k].b;
-      for (const auto& contact : problems[k].contacts) loaded_[k].mu.push_back(contact.mu);
+      PeerProblem problem = problems[k];
+      if (method_ != SiconosMethod::kLcpLemke) problem = WithAllRows(problem, loaded_[k].given);
+      for (const auto& contact : problem.contacts) loaded_[k].mu.push_back(contact.mu);
+      if (method_ == SiconosMethod::kPlanarLcp) problem = PlanarLcp(problem);
+      loaded_[k].A = std::move(problem.A);
+      loaded_[k].b = std::move(problem.b);
       const int rows = static_cast<int>(loaded_[k].b.size());
       loaded_[k].matrix.reset(NM_create_from_data(NM_DENSE, rows, rows, loaded_[k].A.data()));
     }
-    rows_ = static_cast<int>(loaded_.front().b.size());
+    const int rows = static_cast<int>(loaded_.front().b.size());
+    if (rows != rows_) ResetOptions();
+    rows_ = rows;
     f_.resize(rows_);
     a_.resize(rows_);
   }
@@ -117,7 +128,27 @@ class SiconosContender : public Contender {
   }
 
   Eigen::VectorXd Forces() const override {
-    if (method_ != SiconosMethod::kPlanarLcp) return f_;
+    if (method_ == SiconosMethod::kLcpLemke) return f_;
+    const std::vector<int>& given = loaded_[solved_].given;
+    return (method_ == SiconosMethod::kPlanarLcp ? ForcesOfPlanarLcp() : f_)(given);
+  }
+
+ private:
+  // What a method keeps in them between problems is of the size of the first. Not anew for each problem:
+  // Siconos 4.4.0 keeps 120 bytes of options that are deleted.
+  void ResetOptions() {
+    const bool is_newton =
+        method_ == SiconosMethod::kFriction3dNewton || method_ == SiconosMethod::kFriction3dHybrid;
+    options_.reset(solver_options_create(SolverId(method_)));
+    if (IsLcp() || method_ == SiconosMethod::kFriction2dLemke) return;
+    options_->dparam[SICONOS_DPARAM_TOL] = kTolerance;
+    if (method_ == SiconosMethod::kFriction3dHybrid)
+      options_->iparam[SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY] =
+          SICONOS_FRICTION_3D_NSN_HYBRID_STRATEGY_VI_EG_NSN;
+    if (!is_newton) options_->iparam[SICONOS_IPARAM_MAX_ITER] = kIterations;
+  }
+
+  Eigen::VectorXd ForcesOfPlanarLcp() const {
     const std::vector<double>& mu = loaded_[solved_].mu;
     Eigen::VectorXd f(2 * mu.size());
     for (std::size_t i = 0; i < mu.size(); ++i) {
@@ -127,21 +158,22 @@ class SiconosContender : public Contender {
     return f;
   }
 
- private:
   bool IsLcp() const { return method_ == SiconosMethod::kLcpLemke || method_ == SiconosMethod::kPlanarLcp; }
 
   struct Release {
     void operator()(NumericsMatrix* matrix) const { std::free(NM_free_not_dense(matrix)); }
+    void operator()(SolverOptions* options) const { solver_options_delete(options); }
   };
   struct Loaded {
     Eigen::MatrixXd A;
     Eigen::VectorXd b;
     std::vector<double> mu;
+    std::vector<int> given;  // rows that the problem has; none of Lemke's method without friction
     std::unique_ptr<NumericsMatrix, Release> matrix;  // over the entries of A
   };
 
   SiconosMethod method_;
-  std::unique_ptr<SolverOptions, void (*)(SolverOptions*)> options_;
+  std::unique_ptr<SolverOptions, Release> options_;
   std::vector<Loaded> loaded_;
   int rows_ = 0, solved_ = 0;
   Eigen::VectorXd f_, a_;

@@ -3,6 +3,7 @@
 // (search/under_test/stiction_solver.h): compiled once for each, which CMakeLists.txt names.
 //
 //   ADAPTER_NAME, ADAPTER_VERSION, ADAPTER_LAW   as stiction_solver_describe says them
+//   ADAPTER_ACCURACY                             likewise
 //   ADAPTER_MAKE, ADAPTER_ARGUMENTS              what makes the contender (contender.h)
 
 #include "bench/peers/contender.h"
@@ -25,9 +26,8 @@ static_assert(static_cast<int>(stiction::ContactKind::kBilateral) == STICTION_BI
 static_assert(static_cast<int>(stiction::ContactKind::kFrictionless) == STICTION_FRICTIONLESS);
 static_assert(static_cast<int>(stiction::ContactKind::kStatic) == STICTION_STATIC);
 
-// None of these packages says how accurate its answers are. 1e-6 is what a search asks of doubles.
 constexpr stiction_solver_info kInfo = {STICTION_SOLVER_INTERFACE, ADAPTER_NAME, ADAPTER_VERSION, ADAPTER_LAW,
-                                        1e-6};
+                                        ADAPTER_ACCURACY};
 
 }  // namespace
 
