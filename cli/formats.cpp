@@ -125,8 +125,8 @@ const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandL
       .OneOf({kReproducerNames.begin(), kReproducerNames.end()})
       .Details(
           "At most 60 lines, which print what goes wrong and the right forces. c is linked with the library "
-          "under test, python takes it or the program as its argument, ode and bullet are C++ over these "
-          "packages alone; the first comment has the command");
+          "under test, python takes it or the program as its argument, the others are C++ over their package "
+          "alone; the first comment has the command");
   verb.Prints(o.json, "a problem that was written in another format", R"({
       written: written, rounded: integer,  // numbers that are no doubles
       largest_change: exact})");

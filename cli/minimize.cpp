@@ -52,7 +52,8 @@ std::string CheckKeep(const std::string& text) {
 int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy& policy,
                     const MinimizeOptions& options) {
   const Candidate candidate = CandidateOf(file, o.file);
-  const auto keep = [&](const ExactProblem& problem) {
+  const auto keep = [&](const Candidate& tried) {
+    const ExactProblem problem = ExactOf(tried);
     const bool kept = AllEndIn(options.keep, problem, options.policies, o.limits);
     return kept && (!options.signature ||
                     Signature(problem, RunExact(problem, {policy, {}, o.limits})) == *options.signature);

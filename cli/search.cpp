@@ -20,6 +20,7 @@
 #include "cli/night.h"
 #include "cli/shared.h"
 #include "cli/version.h"
+#include "corpus/formats/read_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/machine.h"
@@ -33,6 +34,7 @@
 #include "search/generators/exponential.h"
 #include "search/summary.h"
 #include "search/testimony.h"
+#include "search/under_test/simple_scene.h"
 #include "search/under_test/solver_process.h"
 #include "search/under_test/solver_report.h"
 #include "search/units/known_signatures.h"
@@ -361,7 +363,7 @@ struct ProblemVerb {
   std::optional<std::int64_t> index;
   std::optional<int> exponential;  // contacts
   bool scaled = false;
-  bool best = false, json = false;
+  bool best = false, scene = false, json = false;
 };
 
 ProblemFile ExponentialFile(int contacts, bool scaled) {
@@ -408,6 +410,21 @@ ProblemFile StoredFile(const ProblemVerb& o) {
   return FileOf(campaign, unit, *o.index, Regenerate(campaign, unit, *o.index).problem);
 }
 
+// Of a solver under test.
+ProblemFile SceneFileOf(const ProblemVerb& o) {
+  const std::string source = o.store + ":" + o.unit;
+  const auto named = FindNamed(source);
+  const Json facts = named ? ParseJson(named->finding.facts, source) : Json();
+  if (!facts.contains("scene"))
+    throw InputError(
+        source +
+        ": found none, expected a scene: a finding of search --solver has one when it is finished, "
+        "where its generator makes scenes and one coefficient of friction shows it");
+  const Candidate scene = CandidateFromJson(JsonPlace(facts["scene"], source + ": scene", ""));
+  const Campaign campaign = CampaignOf(Store::OpenToRead(named->store).identity(), o.store);
+  return PosedFileOf(scene, campaign.solver.law, named->finding.signature + "-scene");
+}
+
 int RunProblem(const ProblemVerb& o) {
   const bool stored = !o.store.empty();
   if (o.index && !IsNumber(o.unit))
@@ -422,9 +439,11 @@ int RunProblem(const ProblemVerb& o) {
         "and "
         "perhaps --scaled");
   }
-  const ProblemFile file = is_finding ? ReadProblem(o.store + ":" + o.unit)
-                           : stored   ? StoredFile(o)
-                                      : ExponentialFile(*o.exponential, o.scaled);
+  if (o.scene && !is_finding) throw InputError("problem: found --scene, expected it with STORE SIGNATURE");
+  const ProblemFile file = o.scene      ? SceneFileOf(o)
+                           : is_finding ? ReadProblem(o.store + ":" + o.unit)
+                           : stored     ? StoredFile(o)
+                                        : ExponentialFile(*o.exponential, o.scaled);
   WriteText(o.output, Print(file));
   const Json done = {
       {"written", Json::array({o.output})}, {"contacts", file.problem.contacts.size()}, {"name", file.name}};
@@ -661,6 +680,7 @@ const ListedVerb kProblemVerb("Search", 60, [](CommandLine& program) {
   verb.Positional("UNIT", o.unit, "number of the unit; or the signature of a finding, without INDEX");
   verb.Positional("INDEX", o.index, "number of the problem in its unit, from 0").AtLeast(0);
   verb.Flag("--best", o.best, "instead of a number: the best of a search with an objective");
+  verb.Flag("--scene", o.scene, "of a finding of search --solver: the simplest scene that shows it");
   verb.Option("--exponential", o.exponential, "instead: the worst case, of so many contacts").Range(1, 200);
   verb.Prints(o.json, "a problem of a store, or of a family",
               "{written: written, contacts: integer, name: text}");

@@ -11,6 +11,7 @@
 #include "corpus/record/digest.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
+#include "search/adversary/candidate.h"
 #include "search/adversary/optimized_unit.h"
 #include "solver/problem/solution.h"
 
@@ -108,7 +109,7 @@ void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has
   const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  root.AllowKeys({"library", "found", "minimized", "alone"});
+  root.AllowKeys({"library", "found", "minimized", "alone", "scene"});
   if (const auto library = root.Optional("library"); library && !library->json().is_boolean())
     library->Refuse("true or false");
   root.Required("found", "facts of the problem as found").RequireObject();
@@ -118,6 +119,7 @@ void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has
   if (alone && !alone->json().is_boolean()) alone->Refuse("true or false");
   witness.Require(small.has_value() == has_minimized, "facts", small ? "those of a minimized problem" : "none",
                   "those of a minimized problem where there is one, and only there");
+  if (const auto scene = root.Optional("scene")) CandidateFromJson(*scene);
   if (!small) return;
   small->RequireObject();
   small->Required("contacts", "a number of contacts")

@@ -29,11 +29,11 @@ struct Plainness {
 
 class CandidateMinimizer {
  public:
-  CandidateMinimizer(const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
+  CandidateMinimizer(const Candidate& candidate, const std::function<bool(const Candidate&)>& keep,
                      const std::function<bool()>& cancelled)
       : keep_(keep), cancelled_(cancelled) {
     Take(candidate);
-    if (!keep(ExactOf(candidate))) throw InputError("minimize: the candidate does not show what is to be kept");
+    if (!keep(candidate)) throw InputError("minimize: the candidate does not show what is to be kept");
   }
 
   MinimizedCandidate Run() {
@@ -68,7 +68,7 @@ class CandidateMinimizer {
     candidate.choices = ValuesOf(made);
     if (!(PlainnessOf(candidate) < plainness_)) return false;
     ++result_.tried;
-    if (!keep_(ExactOf(candidate))) return false;
+    if (!keep_(candidate)) return false;
     ++result_.accepted;
     Take(candidate);
     return true;
@@ -121,7 +121,7 @@ class CandidateMinimizer {
     return progress;
   }
 
-  const std::function<bool(const ExactProblem&)>& keep_;
+  const std::function<bool(const Candidate&)>& keep_;
   const std::function<bool()>& cancelled_;
   std::vector<Choice> made_;
   Plainness plainness_;
@@ -131,7 +131,7 @@ class CandidateMinimizer {
 }  // namespace
 
 MinimizedCandidate MinimizeCandidate(const Candidate& candidate,
-                                     const std::function<bool(const ExactProblem&)>& keep,
+                                     const std::function<bool(const Candidate&)>& keep,
                                      const std::function<bool()>& cancelled) {
   return CandidateMinimizer(candidate, keep, cancelled).Run();
 }

@@ -21,10 +21,9 @@ struct MinimizedCandidate {
   bool cancelled = false;
 };
 
-// `keep` says whether a problem still shows the finding. Requires keep(ExactOf(candidate)), otherwise
-// InputError.
+// `keep` says whether a candidate still shows the finding. Requires keep(candidate), otherwise InputError.
 MinimizedCandidate MinimizeCandidate(
-    const Candidate& candidate, const std::function<bool(const ExactProblem&)>& keep,
+    const Candidate& candidate, const std::function<bool(const Candidate&)>& keep,
     const std::function<bool()>& cancelled = [] { return false; });
 
 }  // namespace stiction

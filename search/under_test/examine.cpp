@@ -23,8 +23,9 @@ Examined Examine(SolverProcess& process, const ContactProblem<double>& posed, do
   if (reply.end == SolverEnd::kHung) return {.kind = "hang", .what = reply.how};
   const SolverUnderTest& about = process.about();
   if (!reply.solved) {
-    const bool solvable = SolutionUnder(about.law, ExactOf(posed)).has_value();
-    return {.kind = solvable ? "refused-solvable" : "refused", .what = ""};
+    const bool in_space = about.law == SolverLaw::kCoulomb && posed.dimension == 3;
+    const auto solution = in_space ? NearSolution(posed) : SolutionUnder(about.law, posed);
+    return {.kind = solution ? "refused-solvable" : "refused", .what = ""};
   }
   Examined examined = {.kind = "not-finite", .what = "", .says_solved = true};
   if (!reply.f.allFinite()) return examined;

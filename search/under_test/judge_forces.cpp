@@ -103,8 +103,8 @@ class ContactJudge {
 
 // Forces of the normals alone; empty where they are not unique, or not found.
 std::optional<ForceVector> NormalForces(const ContactProblem<double>& posed) {
-  const ExactProblem normals = ExactOf(PosedFor(SolverLaw::kFrictionless, posed));
-  if (!std::holds_alternative<LdltFactors>(DecideDefinite(normals.A))) return std::nullopt;
+  const ContactProblem<double> normals = PosedFor(SolverLaw::kFrictionless, posed);
+  if (!std::holds_alternative<LdltFactors>(DecideDefinite(ExactOf(normals).A))) return std::nullopt;
   return SolutionUnder(SolverLaw::kFrictionless, normals);
 }
 
@@ -223,11 +223,77 @@ JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, con
   return judged;
 }
 
-std::optional<ForceVector> SolutionUnder(SolverLaw law, const ExactProblem& posed) {
-  if (posed.dimension != 2 || !IsCoulombs(law, 2)) return std::nullopt;
-  const ExactAnswer answer = Solve(posed, "complete", {});
-  if (!answer.Solved() || FindViolation(posed, answer.f)) return std::nullopt;
+namespace {
+
+// low <= f <= high with a >= 0 where f = low, a <= 0 where f = high, a = 0 elsewhere; high is -low, or endless
+// where low is 0.
+bool HoldsWithin(const ForceVector& f, const ForceVector& a, const std::vector<Rational>& limits,
+                 const std::vector<bool>& is_normal) {
+  for (int i = 0; i < f.size(); ++i) {
+    const Rational low = is_normal[i] ? Rational(0) : Rational(-limits[i]);
+    const bool at_low = f[i] == low && a[i] >= 0, at_high = !is_normal[i] && f[i] == limits[i] && a[i] <= 0;
+    const bool inside = f[i] >= low && (is_normal[i] || f[i] <= limits[i]) && a[i] == 0;
+    if (!at_low && !at_high && !inside) return false;
+  }
+  return true;
+}
+
+// Under fixed bounds of friction, verified: with f = x - L for friction the problem without friction
+//
+//   u = A x + (b - A L) + v >= 0, x >= 0, u x = 0        s = 2 L - x >= 0, v >= 0, s v = 0
+//
+// by Lemke's method, v beside tangents alone. Empty where a contact is bilateral, or none is found.
+std::optional<ForceVector> SolutionWithin(const ExactProblem& posed, const std::vector<Rational>& limits) {
+  std::vector<bool> is_normal;
+  std::vector<int> tangents;
+  for (const auto& contact : posed.contacts) {
+    if (contact.kind == ContactKind::kBilateral) return std::nullopt;
+    is_normal.push_back(true);
+    for (int k = 1; contact.HasFrictionRows() && k < posed.dimension; ++k) {
+      tangents.push_back(static_cast<int>(is_normal.size()));
+      is_normal.push_back(false);
+    }
+  }
+  const int rows = posed.rows(), bounded = static_cast<int>(tangents.size());
+  ForceVector shift = ForceVector::Zero(rows);
+  for (const int row : tangents) shift[row] = limits[row];
+  ExactProblem doubled;
+  doubled.contacts.assign(rows + bounded, {ContactKind::kFrictionless, 0, {}});
+  doubled.A.setZero(rows + bounded, rows + bounded);
+  doubled.A.topLeftCorner(rows, rows) = posed.A;
+  doubled.b = ForceVector::Zero(rows + bounded);
+  doubled.b.head(rows) = posed.b - posed.A * shift;
+  for (int k = 0; k < bounded; ++k) {
+    doubled.A(tangents[k], rows + k) = 1;
+    doubled.A(rows + k, tangents[k]) = -1;
+    doubled.b[rows + k] = 2 * limits[tangents[k]];
+  }
+  const ExactAnswer answer = Solve(doubled, "lemke", {});
+  if (!answer.Solved()) return std::nullopt;
+  const ForceVector f = answer.f.head(rows) - shift;
+  if (!HoldsWithin(f, Accelerations(posed, f), limits, is_normal)) return std::nullopt;
+  return f;
+}
+
+}  // namespace
+
+std::optional<ForceVector> SolutionUnder(SolverLaw law, const ContactProblem<double>& posed) {
+  ExactProblem exact = ExactOf(posed);
+  if (law == SolverLaw::kBox || law == SolverLaw::kFindex) {
+    const auto limits = LimitsOf(posed, law, ForceVector::Zero(posed.rows()));
+    return limits ? SolutionWithin(exact, *limits) : std::nullopt;
+  }
+  if (law == SolverLaw::kFrictionless) exact.dimension = 2;  // normals are the same in space
+  if (exact.dimension != 2) return std::nullopt;
+  const ExactAnswer answer = Solve(exact, "complete", {});
+  if (!answer.Solved() || FindViolation(exact, answer.f)) return std::nullopt;
   return answer.f;
+}
+
+std::optional<ForceVector> NearSolution(const ContactProblem<double>& posed) {
+  const auto answer = Solve(posed, kAutomatic, {});
+  if (!answer.Solved()) return std::nullopt;
+  return answer.f.unaryExpr([](double x) { return Rational(x); });
 }
 
 }  // namespace stiction

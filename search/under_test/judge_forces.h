@@ -51,9 +51,14 @@ JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, con
 std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& posed, SolverLaw law,
                                               const ExactProblem::Vector& f);
 
-// Forces that satisfy the law exactly, verified; empty if none are known. Of the laws whose conditions are
-// Coulomb's: `frictionless`, `coulomb` and `pyramid` in the plane.
-std::optional<ExactProblem::Vector> SolutionUnder(SolverLaw law, const ExactProblem& posed);
+// Forces that satisfy the law exactly, verified; empty if none are known. Of `frictionless`; in the plane of
+// `coulomb` and `pyramid`, by complete driving; of `box`, and of `findex` where its bounds are known, by
+// Lemke's method.
+std::optional<ExactProblem::Vector> SolutionUnder(SolverLaw law, const ContactProblem<double>& posed);
+
+// Forces of Coulomb's law as `auto` finds them over doubles, with errors below 1e-8 (gate.h), in space too;
+// empty if it finds none. That a solution exists is known of every problem of rest (certify/existence.md).
+std::optional<ExactProblem::Vector> NearSolution(const ContactProblem<double>& posed);
 
 }  // namespace stiction
 

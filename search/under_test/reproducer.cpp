@@ -31,72 +31,15 @@ using Forces = ExactProblem::Vector;
 
 // ---- Right forces ----------------------------------------------------------------------------
 
-// low <= f <= high with a >= 0 where f = low, a <= 0 where f = high, a = 0 elsewhere; high is -low, or endless
-// where low is 0.
-bool HoldsWithin(const Forces& f, const Forces& a, const std::vector<Rational>& limits,
-                 const std::vector<bool>& is_normal) {
-  for (int i = 0; i < f.size(); ++i) {
-    const Rational low = is_normal[i] ? Rational(0) : Rational(-limits[i]);
-    const bool at_low = f[i] == low && a[i] >= 0, at_high = !is_normal[i] && f[i] == limits[i] && a[i] <= 0;
-    const bool inside = f[i] >= low && (is_normal[i] || f[i] <= limits[i]) && a[i] == 0;
-    if (!at_low && !at_high && !inside) return false;
-  }
-  return true;
-}
-
-// Under fixed bounds of friction, verified: with f = x - L for friction the problem without friction
-//
-//   u = A x + (b - A L) + v >= 0, x >= 0, u x = 0        s = 2 L - x >= 0, v >= 0, s v = 0
-//
-// by Lemke's method, v beside tangents alone. Empty where a contact is bilateral, or none is found.
-std::optional<Forces> SolutionWithin(const ExactProblem& posed, const std::vector<Rational>& limits) {
-  std::vector<bool> is_normal;
-  std::vector<int> tangents;
-  for (const auto& contact : posed.contacts) {
-    if (contact.kind == ContactKind::kBilateral) return std::nullopt;
-    is_normal.push_back(true);
-    for (int k = 1; contact.HasFrictionRows() && k < posed.dimension; ++k) {
-      tangents.push_back(static_cast<int>(is_normal.size()));
-      is_normal.push_back(false);
-    }
-  }
-  const int rows = posed.rows(), bounded = static_cast<int>(tangents.size());
-  Forces shift = Forces::Zero(rows);
-  for (const int row : tangents) shift[row] = limits[row];
-  ExactProblem doubled;
-  doubled.contacts.assign(rows + bounded, {ContactKind::kFrictionless, 0, {}});
-  doubled.A.setZero(rows + bounded, rows + bounded);
-  doubled.A.topLeftCorner(rows, rows) = posed.A;
-  doubled.b = Forces::Zero(rows + bounded);
-  doubled.b.head(rows) = posed.b - posed.A * shift;
-  for (int k = 0; k < bounded; ++k) {
-    doubled.A(tangents[k], rows + k) = 1;
-    doubled.A(rows + k, tangents[k]) = -1;
-    doubled.b[rows + k] = 2 * limits[tangents[k]];
-  }
-  const ExactAnswer answer = Solve(doubled, "lemke", {});
-  if (!answer.Solved()) return std::nullopt;
-  const Forces f = answer.f.head(rows) - shift;
-  if (!HoldsWithin(f, Accelerations(posed, f), limits, is_normal)) return std::nullopt;
-  return f;
-}
-
 struct RightForces {
   std::optional<Forces> f;
   const char* how = "exact, and verified";
 };
 
 RightForces RightUnder(SolverLaw law, const ContactProblem<double>& posed) {
-  const ExactProblem exact = ExactOf(posed);
-  if (law == SolverLaw::kBox || law == SolverLaw::kFindex) {
-    const auto limits = LimitsOf(posed, law, Forces::Zero(posed.rows()));
-    return {limits ? SolutionWithin(exact, *limits) : std::nullopt};
-  }
-  if (auto f = SolutionUnder(law, exact)) return {f};
+  if (auto f = SolutionUnder(law, posed)) return {f};
   if (law != SolverLaw::kCoulomb) return {};
-  const auto answer = Solve(posed, kAutomatic, {});
-  if (!answer.Solved()) return {};
-  return {answer.f.unaryExpr([](double x) { return Rational(x); }), "with errors below 1e-8"};
+  return {NearSolution(posed), "with errors below 1e-8"};
 }
 
 // ---- What a program says ---------------------------------------------------------------------
@@ -293,11 +236,33 @@ std::string With(std::string text, std::initializer_list<std::pair<std::string_v
 struct Package {
   std::string command;  // "g++ @FILE@ -lode -o @NAME@"
   const char* includes;
-  const char* solve;
+  std::string solve;
+  bool takes_contacts = false;
 };
 
-Package PackageOf(std::string_view name, const SolverUnderTest& solver) {
+Package PackageOfSiconos(const SolverUnderTest& solver, const ProblemShown& posed) {
+  const std::string command =
+      "g++ -x c++ -I/usr/include/siconos -I/usr/include/siconos/numerics -I/usr/include/suitesparse @FILE@ \\\n"
+      " *         -lsiconos_numerics -o @NAME@ && ./@NAME@";
+  if (solver.law == SolverLaw::kFrictionless) return {command, kIncludesOfSiconosLemke, kSolveWithSiconosLemke};
+  const bool plane = posed.problem.dimension == 2;
+  const bool newton = solver.name.find("nsn-ac") != solver.name.npos;
+  return {command, kIncludesOfSiconosFriction,
+          With(kSolveWithSiconosFriction,
+               {{"@SICONOS_METHOD@", plane    ? "SICONOS_FRICTION_2D_NSGS"
+                                     : newton ? "SICONOS_FRICTION_3D_NSN_AC"
+                                              : "SICONOS_FRICTION_3D_NSGS"},
+                {"@SICONOS_LIMIT@", newton ? "" : " options->iparam[SICONOS_IPARAM_MAX_ITER] = 100000;"},
+                {"@SICONOS_DIMENSION@", plane ? "2" : "3"}}),
+          true};
+}
+
+Package PackageOf(std::string_view name, const SolverUnderTest& solver, const ProblemShown& posed) {
   if (name == "ode") return {"g++ -x c++ @FILE@ -lode -o @NAME@ && ./@NAME@", kIncludesOfOde, kSolveWithOde};
+  if (name == "dart")
+    return {"g++ -x c++ @FILE@ -ldart-external-odelcpsolver -o @NAME@ && ./@NAME@", kIncludesOfDart,
+            kSolveWithDart};
+  if (name == "siconos") return PackageOfSiconos(solver, posed);
   const bool lemke = solver.name.find("lemke") != solver.name.npos;
   return {
       "g++ -x c++ -DBT_USE_DOUBLE_PRECISION -I/usr/include/bullet @FILE@ -lBulletDynamics-float64 "
@@ -306,13 +271,23 @@ Package PackageOf(std::string_view name, const SolverUnderTest& solver) {
       lemke ? kSolveWithBulletLemke : kSolveWithBulletDantzig};
 }
 
-std::string ProgramInC(const ProblemShown& posed, const Finding& finding, const Package& package,
-                       bool takes_contacts) {
+// What a package has the law of a solver for; c and python have all.
+void RequireLawOf(std::string_view name, const Finding& finding, const SolverUnderTest& solver) {
+  if (name == "c" || name == "python") return;
+  const SolverLaw other = name == "siconos" ? SolverLaw::kCoulomb : SolverLaw::kFindex;
+  if (solver.law == SolverLaw::kFrictionless || solver.law == other) return;
+  const auto name_of = [](SolverLaw law) { return kSolverLawNames[static_cast<std::size_t>(law)]; };
+  throw InputError(
+      fmt::format("{}: found law {}, expected frictionless or {}, which {} has; c and python have all",
+                  finding.signature, name_of(solver.law), name_of(other), name));
+}
+
+std::string ProgramInC(const ProblemShown& posed, const Finding& finding, const Package& package) {
   const std::string& kind = finding.kind;
   std::string text = std::string("/* @SAYS@\n *     ") + package.command + " */\n" + package.includes;
   text += kIncludesInC;
   if (Ends(kind)) text += kIncludesOfEnds;
-  text += DataInC(posed, finding, takes_contacts) + package.solve;
+  text += DataInC(posed, finding, package.takes_contacts) + package.solve;
   if (IsJudged(kind)) {
     const bool findex = !posed.limits.empty();
     text += With(kJudgeInC, {{"@ROUND@", IsRound(posed) ? kRoundInC : ""},
@@ -365,12 +340,7 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
     throw InputError(
         fmt::format("{}: found no failure of a solver under test, expected a finding of search --solver",
                     finding.signature));
-  const bool of_package = name == "ode" || name == "bullet";
-  const bool fits = solver.law == SolverLaw::kFrictionless || solver.law == SolverLaw::kFindex;
-  if (of_package && !fits)
-    throw InputError(
-        fmt::format("{}: found law {}, expected frictionless or findex, which {} has; c and python have all",
-                    finding.signature, kSolverLawNames[static_cast<std::size_t>(solver.law)], name));
+  RequireLawOf(name, finding, solver);
   const ProblemShown posed = ShownOf(finding, solver.law);
   const Json facts = ParseJson(finding.facts, finding.signature);
   const bool is_library = facts.value("library", true);
@@ -383,9 +353,9 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
   if (name == "python")
     text = ProgramInPython(posed, finding, is_library);
   else if (name == "c")
-    text = ProgramInC(posed, finding, {kCommandInC, kIncludesOfLibrary, kSolveByLibrary}, true);
+    text = ProgramInC(posed, finding, {kCommandInC, kIncludesOfLibrary, kSolveByLibrary, true});
   else
-    text = ProgramInC(posed, finding, PackageOf(name, solver), false);
+    text = ProgramInC(posed, finding, PackageOf(name, solver, posed));
   const std::size_t dot = file.find_last_of('.');
   return With(text, {{"@SAYS@", says},
                      {"@LAW@", std::string(kSolverLawNames[static_cast<std::size_t>(solver.law)])},

@@ -16,8 +16,9 @@ namespace stiction {
 
 // c       linked with the library under test (stiction_solver.h)
 // python  the standard library alone; the library or program under test is its argument
-// ode, bullet   C++ over these packages alone
-inline constexpr std::array<std::string_view, 4> kReproducerNames = {"c", "python", "ode", "bullet"};
+// ode, bullet, dart, siconos   C++ over these packages alone
+inline constexpr std::array<std::string_view, 6> kReproducerNames = {"c",      "python", "ode",
+                                                                     "bullet", "dart",   "siconos"};
 
 // Of the minimized problem, or of that as found. `file`: what the program will be called, for the command in
 // its first comment. InputError where the finding is of no solver under test, or its law is none of the

@@ -39,7 +39,7 @@ inline constexpr const char* kSolveWithOde =
 extern void dxSolveLCP(dxWorldProcessMemArena*, unsigned n, double* A, double* pairs_bx, double* w, unsigned unbounded,
                        double* pairs_low_high, int* friction_index);
 extern size_t dxEstimateSolveLCPMemoryReq(unsigned n, bool outer_w);
-static void complain(int, const char* message, va_list) { throw message; }
+static void complain(int, const char* message, va_list values) { throw (vprintf(message, values), puts(""), 0); }
 static int solve(double* f) {
   const int stride = ROWS > 1 ? ((ROWS - 1) | 3) + 1 : ROWS;
   std::vector<double> m(ROWS * stride), pairs(2 * ROWS), bounds(2 * ROWS), w(ROWS);
@@ -54,9 +54,75 @@ static int solve(double* f) {
   int solved = 1;
   try {
     dxSolveLCP((dxWorldProcessMemArena*)&arena, ROWS, m.data(), pairs.data(), w.data(), 0, bounds.data(), @INDEX@);
-  } catch (const char* message) { solved = printf("ODE: %s\n", message) < 0; }
+  } catch (int) { solved = 0; }
   for (int i = 0; i < ROWS; ++i) f[i] = pairs[2 * i + 1];
   return solved;
+}
+)";
+
+inline constexpr const char* kIncludesOfDart = R"(#include <dart/external/odelcpsolver/error.h>
+#include <dart/external/odelcpsolver/lcp.h>
+#include <cstdarg>
+#include <vector>
+)";
+inline constexpr const char* kSolveWithDart =
+    R"(static void complain(int, const char* message, va_list values) { throw (vprintf(message, values), puts(""), 0); }
+static int solve(double* f) {
+  const int stride = ROWS > 1 ? ((ROWS - 1) | 3) + 1 : ROWS;
+  std::vector<double> m(ROWS * stride), minus_b(b, b + ROWS), w(ROWS), lo(low, low + ROWS), hi(high, high + ROWS);
+  @COPY@for (double& x : minus_b) x = -x;
+  for (int i = 0; i < ROWS * ROWS; ++i) m[i / ROWS * stride + i % ROWS] = A[i];
+  dart::external::ode::dSetMessageHandler(complain), dart::external::ode::dSetDebugHandler(complain);
+  try {
+    return dart::external::ode::dSolveLCP(ROWS, m.data(), f, minus_b.data(), w.data(), 0, lo.data(), hi.data(), @INDEX@);
+  } catch (int) { return 0; }
+}
+)";
+
+inline constexpr const char* kIncludesOfSiconosLemke = R"(#include <stdlib.h>
+#include <LCP_Solvers.h>
+#include <LinearComplementarityProblem.h>
+#include <NumericsMatrix.h>
+#include <SolverOptions.h>
+#include <lcp_cst.h>
+)";
+inline constexpr const char* kSolveWithSiconosLemke = R"(static int solve(double* f) {
+  double m[ROWS * ROWS], q[ROWS], w[ROWS];
+  int info = 0;
+  for (int i = 0; i < ROWS * ROWS; ++i) m[i % ROWS * ROWS + i / ROWS] = A[i]; /* column after column */
+  for (int i = 0; i < ROWS; ++i) q[i] = b[i];
+  LinearComplementarityProblem lcp = {ROWS, NM_create_from_data(NM_DENSE, ROWS, ROWS, m), q};
+  SolverOptions* options = solver_options_create(SICONOS_LCP_LEMKE);
+  lcp_lexicolemke(&lcp, f, w, &info, options);
+  solver_options_delete(options), free(NM_free_not_dense(lcp.M));
+  return info == 0;
+}
+)";
+inline constexpr const char* kIncludesOfSiconosFriction = R"(#include <stdlib.h>
+#include <FrictionContactProblem.h>
+#include <Friction_cst.h>
+#include <NonSmoothDrivers.h>
+#include <NumericsMatrix.h>
+#include <SolverOptions.h>
+)";
+inline constexpr const char* kSolveWithSiconosFriction =
+    R"(static int solve(double* f) { /* a frictionless contact: mu = 0, and tangents that are coupled with nothing */
+  enum { N = CONTACTS * DIMENSION };
+  double m[N * N] = {0}, q[N] = {0}, forces[N] = {0}, velocities[N] = {0}, coefficients[CONTACTS];
+  int at[ROWS];
+  for (int i = 0, row = 0; i < N; ++i)
+    if (i % DIMENSION == 0 || kinds[i / DIMENSION] == 2) at[row++] = i;
+    else m[i * N + i] = 1;
+  for (int i = 0; i < ROWS * ROWS; ++i) m[at[i % ROWS] * N + at[i / ROWS]] = A[i]; /* column after column */
+  for (int i = 0; i < ROWS; ++i) q[at[i]] = b[i];
+  for (int i = 0; i < CONTACTS; ++i) coefficients[i] = mu[i];
+  FrictionContactProblem problem = {DIMENSION, CONTACTS, NM_create_from_data(NM_DENSE, N, N, m), q, coefficients};
+  SolverOptions* options = solver_options_create(@SICONOS_METHOD@);
+  options->dparam[SICONOS_DPARAM_TOL] = 1e-9;@SICONOS_LIMIT@
+  const int info = fc@SICONOS_DIMENSION@d_driver(&problem, forces, velocities, options);
+  for (int i = 0; i < ROWS; ++i) f[i] = forces[at[i]];
+  solver_options_delete(options), free(NM_free_not_dense(problem.M));
+  return info == 0;
 }
 )";
 

@@ -152,6 +152,10 @@ std::string GroupText(const Finding& finding, std::int64_t count) {
     const int contacts = facts["minimized"]["contacts"].get<int>();
     text += fmt::format(", minimized to {} contact{}", contacts, contacts == 1 ? "" : "s");
   }
+  if (facts.contains("scene")) {
+    const int contacts = facts["scene"]["contacts"].get<int>();
+    text += fmt::format(", as a scene to {}", contacts);
+  }
   if (facts.contains("alone") && !facts["alone"].get<bool>()) text += ", not by its problem alone";
   if (!finding.done) text += ", not finished";
   return text + "\n";
@@ -175,8 +179,12 @@ std::string SolverText(const Store& store, const std::string& file) {
   const auto tell = [&text](const char* what, std::int64_t count) {
     if (count > 0) text += fmt::format("  {}: {}\n", what, Grouped(count));
   };
-  tell("given up, where no solution of its law is known", s.sum.refused);
-  tell("called solved, where what its law asks for is not known", s.sum.unjudged);
+  // Bounds of findex are not unique where the matrix of the normals is singular.
+  const bool by_findex = solver.law == SolverLaw::kFindex;
+  tell(by_findex ? "given up, where bounds of friction are not unique: nothing is said of these"
+                 : "given up, where no solution of its law is known: nothing is said of these",
+       s.sum.refused);
+  tell("called solved, where bounds of friction are not unique: not judged", s.sum.unjudged);
   tell("passed, and further from Coulomb's law than its accuracy", s.sum.misses_coulomb);
   const Json remarks = RemarksOf(store.identity());
   for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));

@@ -12,6 +12,7 @@
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/under_test/examine.h"
+#include "search/under_test/simple_scene.h"
 #include "search/units/collector.h"
 #include "search/units/minimize.h"
 #include "search/units/regenerate.h"
@@ -216,10 +217,13 @@ Examined FailureOf(SolverProcess& process, const ContactProblem<double>& posed, 
   return {.kind = leak > 0 ? "leak" : "passed", .what = ""};
 }
 
-// As finish.cpp does; empty where none is known, or the law has others.
+// As finish.cpp does; empty where none is known, or the law has others: certificates are of Coulomb's.
 std::string CertificateOfSolution(SolverLaw law, const ExactProblem& problem, const Limits& limits) {
-  if (!SolutionUnder(law, problem)) return "";
-  const Json certificate = DecideExistence(problem, limits).certificate;
+  const bool in_space = law == SolverLaw::kCoulomb && problem.dimension == 3;
+  const bool of_coulomb = law != SolverLaw::kBox && law != SolverLaw::kFindex;
+  if (!in_space && (!of_coulomb || !SolutionUnder(law, *InDoubles(problem)))) return "";
+  const FrictionLaw friction = in_space ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
+  const Json certificate = DecideExistence(problem, limits, {}, friction).certificate;
   if (certificate.is_null() || !CheckCertificate(certificate, "solution").accepted) return "";
   return JsonText(certificate);
 }
@@ -259,12 +263,18 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   const SolverLaw law = campaign.solver.law;
   Json facts = ParseJson(finding.facts, finding.signature);
   std::int64_t leak = 0;
-  // Both in a process that has seen no other problem.
+  // In a process that has seen no other problem.
   const auto alone = [&](const ExactProblem& tried) {
     process.Restart();
     return FailureOf(process, *InDoubles(tried), finding.kind, kSolverSeconds, leak);
   };
   const Examined sought = alone(problem);
+  const auto alike = [&sought](const Examined& examined) {
+    return examined.kind == sought.kind && examined.what == sought.what;
+  };
+  const auto fails = [&](const ContactProblem<double>& posed) {
+    return alike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, leak));
+  };
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
   facts["alone"] = again;
   finished.existence = CertificateOfSolution(law, problem, campaign.limits);
@@ -275,15 +285,14 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
     const auto posed = InDoubles(candidate);
     if (!posed) return "a number is no double";
     if (!kept.Allow(candidate)) return "it leaves the hypotheses";
-    const Examined examined = FailureOf(process, *posed, finding.kind, kSecondsOfCandidate, leak);
-    if (examined.kind == sought.kind && examined.what == sought.what) return std::nullopt;
-    return fmt::format("found {}", examined.kind);
+    if (!fails(*posed)) return "it fails otherwise, or not at all";
+    return std::nullopt;
   };
   if (again && !options.lacks(problem)) {  // also after a problem, as minimizing asks it
     Minimized minimized = Minimize(problem, options);
     if (minimized.cancelled || cancelled()) return std::nullopt;
     const Examined last = alone(minimized.problem);
-    if (last.kind == sought.kind && last.what == sought.what) {
+    if (alike(last)) {
       ProblemFile file;
       file.name = finding.signature;
       file.problem = minimized.problem;
@@ -293,6 +302,10 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
       finished.minimized_existence = CertificateOfSolution(law, minimized.problem, campaign.limits);
       facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
     }
+    const auto scene = SimpleSceneOf(finding, campaign, fails, cancelled);
+    if (cancelled()) return std::nullopt;
+    if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
+      facts["scene"] = ToJson(*scene);
   }
   finished.facts = facts.dump();
   return finished;

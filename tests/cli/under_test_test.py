@@ -2,6 +2,7 @@
 """stiction search --solver: what a solver under test does wrong is found, named and minimized, whatever happens to it."""
 
 import json
+import re
 import shutil
 import sqlite3
 import subprocess
@@ -144,6 +145,55 @@ class UnderTest(cli.TestCase):
         file.write_text(json.dumps(certificate))
         checked = subprocess.run(["python3", cli.ROOT / "certify/check_certificate.py", file], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    # ---- What is kept ----
+
+    def test_what_is_kept_of_packages_is_a_problem_with_its_program_and_right_forces(self):
+        programs = sorted((cli.ROOT / "corpus/peers/minimized").glob("*.cc"))
+        self.assertEqual({program.name.split("-")[0] for program in programs}, {"bullet", "ode"})
+        for program in programs:
+            with self.subTest(program=program.name):
+                problem = json.loads(program.with_suffix(".json").read_text())
+                text = program.read_text()
+                self.assertLessEqual(len(text.splitlines()), 60)
+                arrays = {name: values.replace(". /", "/").split(",") for name, values in
+                          re.findall(r"static const \w+ (\w+)\[\] = \{([^}]*)\}", text)}
+                exact = {name: [Fraction(x.replace(" ", "").rstrip(".")) for x in arrays[name]] for name in ("A", "b", "right")}
+                A = [Fraction(x) for row in self.matrix(problem) for x in row]
+                self.assertEqual((exact["A"], exact["b"]), (A, [Fraction(x) for x in problem["b"]]))
+                f, n = exact["right"], len(exact["b"])
+                a = [exact["b"][i] + sum(A[i * n + j] * f[j] for j in range(n)) for i in range(n)]
+                for i in range(n):
+                    if "INFINITY" in arrays["high"][i]:  # a normal
+                        self.assertTrue(f[i] >= 0 and a[i] >= 0 and f[i] * a[i] == 0, (f, a))
+
+    # ---- Scenes ----
+
+    def test_what_a_scene_shows_is_shown_by_a_simpler_scene(self):
+        liar = self.toy("BUG_LIES")
+        done = self.search(liar, "scenes.store", generator="scenes", contacts=(3,), problems=20, unit=20)
+        self.assertEqual(done.code, 0, done.err)
+        store = self.folder / "scenes.store"
+        of_scenes = [finding for finding in self.findings("scenes.store") if "scene" in finding["facts"]]
+        self.assertTrue(of_scenes, done.out)
+        for finding in of_scenes:
+            facts, file = finding["facts"], self.folder / "scene.json"
+            self.assertEqual(facts["scene"]["contacts"], 1)
+            self.assertEqual(facts["scene"]["mu"], "0")  # toy's law has no friction
+            self.succeeds("problem", store, finding["signature"], "--scene", "-o", file)
+            problem = json.loads(file.read_text())
+            self.assertEqual(len(problem["contacts"]), facts["scene"]["contacts"])
+            self.assertEqual({contact["kind"] for contact in problem["contacts"]}, {"frictionless"})
+            self.assertEqual(problem["scene"]["format"], "stiction-scene")
+            scene = self.folder / "alone.json"
+            scene.write_text(json.dumps(problem["scene"]))
+            self.succeeds("import", scene, "-o", self.folder / "assembled.json")
+            self.assertLess(Fraction(problem["b"][0]), 0)  # it moves inward without forces
+        self.assertIn("as a scene to", self.succeeds("status", store).out)
+        self.search(liar, "integers.store", contacts=(2,), problems=20, unit=20)
+        finding = self.findings("integers.store")[0]["signature"]
+        self.refuses("problem", self.folder / "integers.store", finding, "--scene", says=["scene"])
+        self.refuses("problem", store, 0, 0, "--scene", says=["--scene", "SIGNATURE"])
 
     # ---- Reproducers ----
 

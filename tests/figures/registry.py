@@ -114,6 +114,9 @@ MEASUREMENTS = [
                 "How many times worse for the solver than the best of random problems the best of each optimizer "
                 "is, by seed, with as many evaluations: `inf` where random problems have no value, `-` where "
                 "neither has, 0 where only random ones have; nothing was tuned on these seeds."),
+    Measurement("adversary-solvers", "long", search.adversary_solvers,
+                "Solvers of other packages, and ours, under test: how often each fails on a million problems, and the "
+                "smallest problem of each failure.", PEERS),
     Measurement("generators-by-mu", "minutes", search.generators_by_mu,
                 "How often the policy `paper` loops on other generators, by contacts and friction."),
     Measurement("missed-by-doubles", "long", search.missed_by_doubles,

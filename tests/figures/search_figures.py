@@ -428,3 +428,69 @@ def questions(program):
     order = re.findall(r"(?m)^\| `([\w-]+)` \|.*\(campaigns/", (ROOT / "search/questions.md").read_text())
     rows = sorted([*rows, *tried_in_records(program)], key=lambda row: order.index(row[0]))
     return table(["id", "what came of it", "problems", "where"], [(f"`{name}`", *cells) for name, *cells in rows])
+
+
+# ---- Solvers of others -------------------------------------------------------------------------------------------
+
+FAILURES = ("crash", "hang", "leak", "not-finite", "silent-wrong", "refused-solvable")
+PLANE, SPACE = ("-c", "2", "3"), ("-g", "space", "-c", "1", "2", "3")
+# Libraries of bench/peers, and what they are given.
+TESTED = (("ode", PLANE), ("ode-frictionless", PLANE), ("bullet-dantzig", PLANE), ("bullet-dantzig-frictionless", PLANE),
+          ("bullet-lemke", PLANE), ("dart", PLANE), ("dart-frictionless", PLANE), ("siconos-lemke", PLANE),
+          ("siconos-nsgs", PLANE), ("siconos-nsn-ac", SPACE), ("stiction", PLANE), ("stiction", SPACE))
+
+
+def numbers_of(problem):
+    """A, b and mu of a small problem; of larger numbers how many digits they have."""
+    A = problem["A"]
+    if not isinstance(A, list):
+        A = [[x for *_, x in A["entries"]]]
+    numbers = [x for row in [*A, problem["b"]] for x in row]
+    digits = max(len(x.strip("-")) for x in numbers)
+    if digits > 6 or len(numbers) > 42:
+        return f"{len(problem['b'])} rows, numbers of up to {digits} digits"
+    mu = ", ".join(contact["mu"] for contact in problem["contacts"] if "mu" in contact)
+    written = "; ".join(" ".join(row) for row in A)
+    return f"`A = {written}`, `b = {' '.join(problem['b'])}`" + (f", `mu = {mu}`" if mu else "")
+
+
+def smallest_of(program, store, solver, told):
+    """Of each kind the group with the smallest problem."""
+    rows, kinds = [], set()
+    for group in told["groups"]:
+        facts, kind = group["facts"], group["kind"]
+        if kind in kinds or "minimized" not in facts:
+            continue
+        kinds.add(kind)
+        problem = json.loads(program.text("problem", store, group["signature"], "-o", "-", shown=False))
+        scenes = [of["facts"]["scene"]["contacts"] for of in told["groups"] if of["kind"] == kind and "scene" in of["facts"]]
+        what = facts["minimized"]["what"]
+        rows.append((f"`{solver}`", f"`{kind}`" + (f", {what}" if what else ""), facts["minimized"]["contacts"],
+                     numbers_of(problem), min(scenes) if scenes else "-"))
+    return rows
+
+
+def adversary_solvers(program):
+    """The same problems for every solver that bench/peers makes a library of, and its findings, minimized."""
+    rates, smallest = [], []
+    os.makedirs(ROOT / "build/campaigns", exist_ok=True)
+    for name, problems in TESTED:
+        place = " in space" if problems is SPACE else ""
+        store = f"build/campaigns/solver-{name}{place.replace(' ', '-')}.store"
+        told = program.json("search", "--solver", f"build/release/peers/{name}.so", *problems, "--seed", 1994, "--problems",
+                            program.size(1_000_000), "--finishing", 100, "--threads", 1, "--store", store)
+        solver, counts = told["solver"], told["counts"]
+        of = counts["problems"]
+        failed = [counts[kind.replace("-", "_")] for kind in FAILURES]
+        rates.append((f"`{name}`{place}", solver["version"], solver["law"], count(of), f"{100 * counts['passed'] / of:.2f}",
+                      *(rate(number, of) if number else "0" for number in failed), count(counts["refused"]),
+                      count(counts["unjudged"]), count(counts["misses_coulomb"])))
+        smallest += smallest_of(program, store, name + place, told)
+    head = ["solver", "version", "law", "problems", "passed, %", *(kind.replace("-", " ") for kind in FAILURES), "refused",
+            "unjudged", "not Coulomb's"]
+    return table(head, rates) + "\n\n" + prose(
+        "Failures in a million problems, in brackets exact intervals at 95 %; the last three columns are counts: given up "
+        "where no solution of the law is known, called solved where its bounds are not unique, and right by its law but not "
+        "by Coulomb's. Problems are those of all ordinary generators, the same for every solver of the plane; of others 1e-6 "
+        "is asked, of `stiction` 1e-8, which it states.") + "\n\n" + table(
+        ["solver", "failure", "contacts", "the smallest problem of it", "contacts of the smallest scene"], smallest)

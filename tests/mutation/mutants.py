@@ -13,7 +13,7 @@
 
 from collections import namedtuple
 
-FOLDERS = ("certify/claims", "certify/exact", "certify/check_certificate.py", "solver/problem")  # where functions are
+FOLDERS = ("certify/claims", "certify/exact", "certify/check_certificate.py", "solver/problem", "search/under_test")  # where functions are
 
 Row = namedtuple("Row", "function id original mutated breaks type equivalent")
 HAND = []
@@ -202,3 +202,14 @@ bug("check_no_solution", "py-cover", "covered == following[-1]", "True", "no-sol
 bug("check_safe", "py-safe-zero", "value > 0", "value >= 0", "safe: a determinant of zero")
 bug("check_safe_by_condition", "py-condition-least", "is_semidefinite(below)", "True", "any least eigenvalue")
 bug("check_unsafe", "py-unsafe", "value <= 0", "True", "unsafe: a positive determinant")
+
+# ---- search/under_test ----
+
+bug("AddFriction", "solver-drives", "force * a > 0", "force * a < 0", "friction that drives the slip is called less than its limit")
+bug("TakeOutIdle", "solver-idle", "largest > accuracy * accuracy", "false", "any force of idle contacts is none")
+bug("Allow", "solver-hypotheses", "!is_semidefinite || IsPositiveSemidefinite(problem)", "true",
+    "a finding is minimized to a problem that is not semidefinite")
+bug("FinishSolverFinding", "solver-alike", "examined.kind == sought.kind && examined.what == sought.what",
+    "examined.kind == sought.kind", "a finding is minimized to another failure of its kind")
+bug("AsPosed", "solver-scene", "PosedFor(law, RoundedOf(scene, nullptr))", "RoundedOf(scene, nullptr)",
+    "a scene's problem keeps its friction under a law without")

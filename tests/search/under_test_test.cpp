@@ -8,9 +8,13 @@
 #include <limits>
 
 #include "corpus/json.h"
+#include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 #include "search/campaign.h"
 #include "search/under_test/judge_forces.h"
+#include "search/under_test/simple_scene.h"
 #include "search/under_test/solver_process.h"
+#include "search/units/regenerate.h"
 #include "tests/scratch.h"
 
 namespace stiction {
@@ -152,13 +156,69 @@ TEST_CASE("under test: what waits is asked once more before it is said to hang")
   }
 }
 
-TEST_CASE("under test: a solution is known of Coulomb's law in the plane") {
-  const ExactProblem problem = ExactOf(OneContact(1, {2, 3}, {-1, 1}));
-  const auto f = SolutionUnder(SolverLaw::kCoulomb, problem);
-  REQUIRE(f.has_value());
-  CHECK((*f)[0] == Rational(1, 2));
-  CHECK((*f)[1] == Rational(-1, 3));
-  CHECK_FALSE(SolutionUnder(SolverLaw::kBox, problem).has_value());
+TEST_CASE("under test: a solution is known of the laws of the plane, and of fixed bounds in space") {
+  const auto problem = OneContact(1, {2, 3}, {-1, 1});
+  for (const SolverLaw law : kLawsWithFriction) {
+    const auto f = SolutionUnder(law, problem);
+    REQUIRE(f.has_value());
+    CHECK((*f)[0] == Rational(1, 2));
+    CHECK((*f)[1] == Rational(-1, 3));
+  }
+  // Friction presses the contact, so the laws part: under findex the bound is that of fN = 1 alone.
+  ContactProblem<double> pressed = OneContact(1, {2, 2}, {-2, 4});
+  pressed.A(0, 1) = pressed.A(1, 0) = 1;
+  const ExactProblem::Vector within{{Rational(3, 2), Rational(-1)}}, coulomb{{Rational(2), Rational(-2)}};
+  CHECK((*SolutionUnder(SolverLaw::kFindex, pressed) == within));
+  CHECK((*SolutionUnder(SolverLaw::kCoulomb, pressed) == coulomb));
+  ContactProblem<double> space;
+  space.dimension = 3;
+  space.contacts = {{ContactKind::kStatic, 0.5, {}}};
+  space.A = Eigen::Matrix3d::Identity();
+  space.b = Eigen::Vector3d(-2, 3, -0.5);
+  const ExactProblem::Vector expected{{Rational(2), Rational(-1), Rational(1, 2)}};  // each tangent for itself
+  CHECK((*SolutionUnder(SolverLaw::kFindex, space) == expected));
+  CHECK((*SolutionUnder(SolverLaw::kBox, space) == expected));
+  CHECK(NearSolution(space).has_value());
+  CHECK_FALSE(SolutionUnder(SolverLaw::kCoulomb, space).has_value());
+  CHECK(SolutionUnder(SolverLaw::kFrictionless, PosedFor(SolverLaw::kFrictionless, space)).has_value());
+}
+
+TEST_CASE("under test: a scene is made simpler while the solver fails alike on its problem") {
+  Campaign campaign;
+  campaign.generators = {GeneratorId::kScenes};
+  campaign.contacts = {4};
+  campaign.solver = {"toy", "1", SolverLaw::kCoulomb, "1e-06"};
+  const auto never = [] { return false; };
+  Finding finding;
+  finding.signature = "silent-wrong-pulls-4c";
+  int asked = 0;
+  const auto two_press = [&](const ContactProblem<double>& posed) {
+    ++asked;
+    return posed.contacts.size() >= 2 && posed.contacts[0].mu == 0.5 && posed.b[0] < 0;
+  };
+  while (!(Rounded<double>(Regenerate(campaign, 0, finding.index).problem).b[0] < 0)) ++finding.index;
+  const auto scene = SimpleSceneOf(finding, campaign, two_press, never);
+  REQUIRE(scene.has_value());
+  CHECK(scene->contacts <= 4);
+  CHECK(scene->mu == MuChoice{1, 2});  // the one of the campaign's with which it fails
+  CHECK(asked > 10);
+  const ProblemFile file = PosedFileOf(*scene, SolverLaw::kCoulomb, "simple");
+  CHECK(file.scene.has_value());
+  CHECK(two_press(Rounded<double>(file.problem)));
+  CHECK(CandidateOf(file, "simple") == *scene);
+  CHECK_FALSE(SimpleSceneOf(finding, campaign, two_press, [] { return true; }).has_value());
+  CHECK_FALSE(SimpleSceneOf(
+                  finding, campaign, [](const ContactProblem<double>&) { return false; }, never)
+                  .has_value());
+  // Without friction the solver is given normals alone, of a scene without friction.
+  campaign.solver.law = SolverLaw::kFrictionless;
+  const auto any = [](const ContactProblem<double>& posed) { return posed.rows() >= 2; };
+  const auto smooth = SimpleSceneOf(finding, campaign, any, never);
+  REQUIRE(smooth.has_value());
+  CHECK(smooth->mu == MuChoice{0, 1});
+  CHECK(PosedFileOf(*smooth, SolverLaw::kFrictionless, "smooth").problem.rows() == 2);
+  campaign.generators = {GeneratorId::kIntegers};
+  CHECK_FALSE(SimpleSceneOf(finding, campaign, any, never).has_value());
 }
 
 TEST_CASE("under test: a campaign names the solver, and is another with another one") {
