@@ -14,7 +14,7 @@ namespace stiction {
 namespace {
 
 [[maybe_unused]] const bool kRecordedExceptional = AddRecorded({
-    {"exceptional", 0x010a2469f6661414, 0xdba0e1de9b3fd9e5, 0x4771096e4619c5ce},
+    {"exceptional", 0x010a2469f6661414, 0xdba0e1de9b3fd9e5, 0x0e39e974f08364e5},
 });
 
 struct DrawnExceptional {
