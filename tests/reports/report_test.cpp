@@ -249,6 +249,7 @@ std::string Between(const std::string& text, const std::string& begin, const std
   return text.substr(start, to - start);
 }
 
+const std::string kLinesBegin = "<script type=\"text/plain\" id=\"lines\">";
 const std::string kDataBegin = "<script type=\"application/json\" id=\"data\">";
 
 Json DataOf(const std::string& page) { return ParseJson(Between(page, kDataBegin, "</script>"), "data"); }
@@ -263,8 +264,13 @@ Json ListedIn(const std::string& page) {
 
 // What the page says without its script, its style sheet, its data and its notices.
 std::string TextOf(std::string page) {
-  for (const auto& [begin, end] : std::initializer_list<std::pair<std::string, std::string>>{
-           {"<!--", "-->"}, {"<style>", "</style>"}, {kDataBegin, "</script>"}, {"<script>", "</script>"}}) {
+  for (const auto& [begin, end] :
+       std::initializer_list<std::pair<std::string, std::string>>{{"<!--", "-->"},
+                                                                  {"<style>", "</style>"},
+                                                                  {kDataBegin, "</script>"},
+                                                                  {kLinesBegin, "</script>"},
+                                                                  {"<script>", "</script>"}}) {
+    if (begin == kLinesBegin && !Has(page, begin)) continue;  // of findings alone
     const std::string inside = Between(page, begin, end);
     page.erase(page.find(begin), begin.size() + inside.size() + end.size());
   }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "certify/claims/condition.h"
@@ -380,15 +381,19 @@ TEST_CASE("adversary: parents are the best of earlier epochs, of the same task a
   REQUIRE(shard.Owns(later));
   const auto parents = heritage.ParentsOf(later);
   REQUIRE(!parents.empty());
-  double last = 1e9;
+  std::map<int, double> last;  // by contacts: smaller ones are made larger
   for (const Candidate& parent : parents) {
     const std::int64_t unit = parent.choices.front();
     CHECK(shard.Owns(unit));
     CHECK(Heritage::EpochOf(unit, shard) < Heritage::EpochOf(later, shard));
-    CHECK(TaskOf(schedule, unit).contacts == TaskOf(schedule, later).contacts);
-    CHECK(static_cast<double>(unit % 37) <= last);
-    last = static_cast<double>(unit % 37);
+    const int contacts = TaskOf(schedule, unit).contacts;
+    CHECK(parent.contacts == contacts);
+    CHECK(contacts <= TaskOf(schedule, later).contacts);
+    const auto value = static_cast<double>(unit % 37);
+    if (last.count(contacts) > 0) CHECK(value <= last[contacts]);
+    last[contacts] = value;
   }
+  CHECK(last.size() == (TaskOf(schedule, later).contacts == 5 ? 2 : 1));
 }
 
 TEST_CASE("adversary: a store says what was best, and no rate") {

@@ -577,7 +577,8 @@ TEST_CASE("unit: a method that does not solve is a grave finding with all answer
 // Of the unit, with a runner that has its workspace already. -1: it had a suspicion.
 std::int64_t AllocationsOf(GeneratorId generator, int contacts, std::int64_t problems, std::int64_t unit) {
   Campaign campaign = Small(generator, contacts, problems);
-  campaign.palette = {{1, 2}};  // few strata, each of which is met
+  campaign.palette = {{1, 2}};           // few strata, each of which is met
+  campaign.audit_every = 1'000'000'000;  // audits allocate
   UnitRunner runner(campaign);
   runner.Run(unit);
   const std::int64_t before = allocations;
