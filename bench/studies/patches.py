@@ -28,7 +28,7 @@ def counted(generator, contacts, o):
             sums[rule] += failed.sum()
             if rule == "first":
                 gave_up = failed | (run["give_ups"] > 0)
-        complete = stiction.solve_all(problems, "complete", "filtered")
+        complete = stiction.solve_all(problems, "complete", "exact")
         handed = stiction.solve_all([problems[i] for i in np.flatnonzero(gave_up)], "lemke", "filtered")
         for name, which in (("gives up", gave_up), ("folds", complete["folds"] > 0), ("fold", complete["descents"] > 0),
                             ("lemke", handed["outcome"] != "solved"), ("complete", complete["outcome"] != "solved")):

@@ -217,10 +217,14 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
             shutil.copytree(ROOT / EXAMPLE, self.out / "report")
         else:
             self.ask("report", Path(store).resolve(), "-o", self.out / "report", codes=(0, 4))
-        folder, sums = self.out / "report", self.out / "report/SHA256SUMS"
+        self.lead_back(self.out / "report", "../index.html", "stiction")
+
+    def lead_back(self, folder, href, name):
+        """The pages of a report have a way back, and their checksums fit."""
+        sums = folder / "SHA256SUMS"
         lines = sums.read_text()
         for page in folder.glob("*.html"):
-            self.write(f"report/{page.name}", with_way_back(page.read_text(), "../index.html", "stiction"))
+            page.write_text(with_way_back(page.read_text(), href, name))
             lines = re.sub(rf"^\w+(  {re.escape(page.name)})$",
                            rf"{hashlib.sha256(page.read_bytes()).hexdigest()}\1", lines, flags=re.M)
         sums.write_text(lines)
@@ -288,10 +292,12 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
         target = posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
         copy = self.out / "docs" / target
         copy.parent.mkdir(parents=True, exist_ok=True)
-        if target.endswith(".html"):
-            here = posixpath.dirname(f"docs/{target}")
-            copy.write_text(with_way_back((ROOT / target).read_text(), posixpath.relpath("docs/index.html", here),
-                                          "Documentation"))
+        back = posixpath.relpath("docs/index.html", posixpath.dirname(f"docs/{target}")), "Documentation"
+        if (ROOT / target).with_name("SHA256SUMS").is_file():  # a report, of which it is a page
+            shutil.copytree((ROOT / target).parent, copy.parent, dirs_exist_ok=True)
+            self.lead_back(copy.parent, *back)
+        elif target.endswith(".html"):
+            copy.write_text(with_way_back((ROOT / target).read_text(), *back))
         else:
             shutil.copyfile(ROOT / target, copy)
         return posixpath.relpath(f"docs/{target}", posixpath.dirname(page_of(name)))

@@ -76,7 +76,7 @@ class Adversary(cli.TestCase):
                     "--finishing", 0)
         with contextlib.closing(sqlite3.connect(loops)) as db:
             found = db.execute("SELECT signature FROM findings WHERE generator = 'psd' ORDER BY signature").fetchall()
-        options = ["--objective", "period", "--generator", "psd", "--mu", 1, "--problems", 200]
+        options = ["--objective", "period", "--generator", "psd", "--mu", 1, "--problems", 200, "--finishing", 0]
 
         def parents(*sources, contacts=(2,)):
             store = self.folder / f"s{len(list(self.folder.iterdir()))}"
@@ -91,7 +91,7 @@ class Adversary(cli.TestCase):
         of_store, _ = parents(loops)
         self.assertEqual(len(of_store), len(found))  # those of integers do not fit
         self.assertIn(finding[0], of_store)
-        record = cli.ROOT / "corpus/records/period-2-contacts.json"
+        record = cli.ROOT / "corpus/records/condition-mu-1-2-contacts.json"
         folder.mkdir()
         shutil.copy(record, folder)
         shutil.copy(cli.ROOT / "corpus/space/ray-under-slip-literal.json", folder)
@@ -99,7 +99,7 @@ class Adversary(cli.TestCase):
         near, best = parents(cli.ROOT / "corpus/cycle-every-policy-mu-1.json", contacts=(3,))
         self.assertEqual((near[0]["generator"], near[0]["contacts"]), ("psd", 2))
         self.assertTrue(best)  # beside a third contact it loops
-        (folder / "period-2-contacts.json").unlink()
+        (folder / "condition-mu-1-2-contacts.json").unlink()
         self.refuses("search", *options, "--contacts", 2, "--from", folder, "--store", self.folder / "s",
                      says=["problems", "--generator"])
 

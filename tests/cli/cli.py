@@ -86,11 +86,19 @@ def unwrapped(text):
 
 def forces(data, frame):
     """The forces of a frame of an animation (reports/web/data.md): {bodies, kind, mu, f}."""
-    packed, at, found = base64.b64decode(frame["forces"]), 0, []
-    while at < len(packed):
-        contact = data["contacts"][struct.unpack_from("<h", packed, at)[0]]
-        found.append({**contact, "f": struct.unpack_from(f"<{contact['rows']}f", packed, at + 10)})
-        at += 10 + 4 * contact["rows"]
+    found = []
+    for one in data["frames"]:
+        packed, at, before, found = base64.b64decode(one["forces"]), 0, found, []
+        while at < len(packed):
+            same, new = struct.unpack_from("<hh", packed, at)
+            at += 4
+            found += before[len(found):len(found) + same]
+            for _ in range(new):
+                contact = data["contacts"][struct.unpack_from("<h", packed, at)[0]]
+                found.append({**contact, "f": struct.unpack_from(f"<{contact['rows']}f", packed, at + 10)})
+                at += 10 + 4 * contact["rows"]
+        if one is frame:
+            break
     return found
 
 

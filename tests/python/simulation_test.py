@@ -71,12 +71,12 @@ class Simulations(unittest.TestCase):
         self.assertIn("101 states, 1 bodies", repr(run))
 
     def test_a_notebook_shows_the_page_that_plays_it(self):
-        run = stiction.simulate(SCENES / "incline-slides.json", seconds=0.5)
+        run = stiction.simulate(SCENES / "incline-slides.json", seconds=1)
         shown = html.unescape(run._repr_html_())
         self.assertTrue(shown.startswith("<iframe srcdoc="))
         data = json.loads(re.search(r'id="data">(.*?)</script>', shown, re.S)[1])
         self.assertEqual(data["motions"][0]["word"], "slides")
-        self.assertEqual(len(data["frames"]), 16)
+        self.assertEqual(len(data["frames"]), 31)
         for frame in data["frames"]:  # energy of the state that it shows
             at = int(np.argmin(np.abs(run.times - frame["time"])))
             self.assertAlmostEqual(run.times[at], frame["time"], delta=1e-9)
