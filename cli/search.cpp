@@ -12,6 +12,7 @@
 #include <charconv>
 #include <chrono>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <set>
 #include <thread>
@@ -295,15 +296,17 @@ Look LookAt(const Store& store) {
   return look;
 }
 
-std::string Changes(const Look& before, const Look& now) {
+// Names at most `most` of the new groups.
+std::string Changes(const Look& before, const Look& now, std::int64_t most) {
   std::string names;
   std::int64_t groups = 0;
   for (const std::string& signature : now.signatures) {
-    if (before.signatures.contains(signature)) continue;
+    if (before.signatures.contains(signature) || groups++ >= most) continue;
     const std::string known(KnownAs(signature));
     names +=
-        fmt::format("{}{}{}", groups++ > 0 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
+        fmt::format("{}{}{}", groups > 1 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
   }
+  if (groups > most) names += ", ...";
   return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
                      Grouped(now.problems - before.problems),
                      Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
@@ -323,6 +326,8 @@ void Redraw(const std::string& news, const std::string& summary) {
   std::fflush(stderr);
 }
 
+constexpr std::int64_t kMostNewOnScreen = 4;  // groups that are named: the summary is to be seen
+
 // As long as a process works on the store: on a terminal a summary that is drawn anew, otherwise lines of what
 // is new, on standard error.
 void Watch(const std::string& file) {
@@ -333,7 +338,8 @@ void Watch(const std::string& file) {
     if (std::filesystem::exists(file)) {  // a search makes it in its first moment
       const Store store = OpenSound(file);
       const Look now = LookAt(store);
-      const std::string line = fmt::format("{} {}", TimeOfDay(), Changes(before.value_or(now), now));
+      const std::int64_t most = terminal ? kMostNewOnScreen : std::numeric_limits<std::int64_t>::max();
+      const std::string line = fmt::format("{} {}", TimeOfDay(), Changes(before.value_or(now), now, most));
       if (terminal) {
         Redraw(Folded(line, TextWidth(STDERR_FILENO)), SummaryOf(store, file));
       } else if (!before || now.problems != before->problems) {
