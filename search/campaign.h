@@ -28,10 +28,10 @@ struct Campaign {
   std::vector<MuChoice> palette = {kDefaultPalette.begin(), kDefaultPalette.end()};
   std::vector<Policy> policies = {Policy{}};
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
-  std::int64_t audit_every = 5000;     // one problem in so many, a unit's first included, is also run exactly
-  // Complete driving runs on all problems that are audited, on all that the published algorithm does not solve,
-  // and on one in so many, drawn by their seeds, of the suspicions that turn out to be solved. Of what it runs
-  // on, one in so many is run by Lemke's method too (audited problems: all); and of those of at most
+  std::int64_t audit_every = 5000;     // one problem in so many is also run exactly
+  // Complete driving runs on all problems that are audited, on the first of each group of a unit that the
+  // published algorithm does not solve, and on one in so many, drawn by their seeds, of the suspicions. Of what
+  // it runs on, one in so many is run by Lemke's method too (audited problems: all); and of those of at most
   // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes.
   // Representatives are run by all when finished.
   std::int64_t complete_every = 100;

@@ -440,6 +440,10 @@ std::int64_t Store::CountUnits(const Shard& shard, std::int64_t block) const {
 }
 
 void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
+  // Units come in their order, or nearly: until the last is there, nothing needs to be counted.
+  Statement last(db_.get(), "SELECT 1 FROM units WHERE unit = ? AND shards = ?");
+  const std::int64_t shards = shard.count;
+  if (!last.Bind(FirstUnit(shard, block) + (kUnitsPerBlock - 1) * shards).Bind(shards).Step()) return;
   if (CountUnits(shard, block) < kUnitsPerBlock) return;
   const std::string of_block = " WHERE shards = ? AND shard = ? AND block = ?";
   const auto bind = [&](Statement& statement) -> Statement& { return statement.Bind(shard).Bind(block); };

@@ -97,13 +97,13 @@ void Collector::FindDisagreementOfMethods(const Place& place, Outcome published,
        fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem, &facts);
 }
 
-void Collector::Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
+bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
                      const ExactProblem& problem, const Json* facts) {
   const Policy& policy = campaign_.policies[place.policy];
   signature = Named(std::move(signature), place.policy);
-  if (++result_.record.signatures[signature] > 1) return;
+  if (++result_.record.signatures[signature] > 1) return false;
   const bool full = static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
-  if (full && !IsGrave(kind)) return;
+  if (full && !IsGrave(kind)) return true;
   Finding finding;
   finding.signature = std::move(signature);
   finding.kind = kind;
@@ -117,6 +117,7 @@ void Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
   if (facts != nullptr) finding.facts = facts->dump();
   result_.candidates.push_back(std::move(finding));
+  return true;
 }
 
 std::string Collector::Named(std::string signature, std::size_t number) const {

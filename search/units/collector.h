@@ -86,7 +86,8 @@ class Collector {
   void FindOfDoubles(const Place& place, bool wrong, const ExactProblem& problem);
   void FindDisagreementOfMethods(const Place& place, Outcome published, const Disagreement& disagreement,
                                  const ExactProblem& problem, const Answers& answers);
-  void Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
+  // Whether it is the first with this signature in the unit.
+  bool Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
             const ExactProblem& problem, const Json* facts = nullptr);
   // A signature as the store has it.
   std::string Named(std::string signature, std::size_t number) const;

@@ -118,11 +118,11 @@ Outcome Examiner::Decide(const Place& place, const ExactProblem& problem, const 
 void Examiner::Confirm(const Place& place, const ExactProblem& problem, const OnRung& filtered) {
   const Verdict& verdict = filtered.verdict;
   const Spending spending(collector_.meter(), &ProcessorTime::compared);
-  const ExactAnswer complete = methods_.complete_filtered(problem, campaign_.limits);
-  CompareAnswers(place, verdict.outcome, problem, {{complete, AnswerBy("baraff", verdict.outcome)}, {}});
   const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
   const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
-  FindUnsolved(place, verdict, run.pivots, problem);
+  if (!FindUnsolved(place, verdict, run.pivots, problem)) return;
+  const ExactAnswer complete = methods_.complete_filtered(problem, campaign_.limits);
+  CompareAnswers(place, verdict.outcome, problem, {{complete, AnswerBy("baraff", verdict.outcome)}, {}});
 }
 
 Outcome Examiner::Examine(const Place& place, const ExactProblem& problem, const Verdict* filtered,
@@ -131,17 +131,16 @@ Outcome Examiner::Examine(const Place& place, const ExactProblem& problem, const
   const Outcome exact = run.verdict.outcome;
   collector_.CountVerdict(place, exact, suspected);
   if (filtered != nullptr) CompareFiltered(place, *filtered, run, problem);
-  if (exact == Outcome::kSolved && !drawn) return exact;
+  const bool is_new = exact != Outcome::kSolved && FindUnsolved(place, run.verdict, run.trace.pivots, problem);
+  if (!drawn && !is_new) return exact;
   Compare(place, run, problem,
           /*with_lemke=*/!suspected && campaign_.arithmetic == Arithmetic::kDouble);
   if (!suspected && !collector_.generator().HasOtherKinds()) CheckSafety(place, run, problem);
-  if (exact == Outcome::kSolved) return exact;
-  FindUnsolved(place, run.verdict, run.trace.pivots, problem);
   return exact;
 }
 
 template <class Scalar>
-void Examiner::FindUnsolved(const Place& place, const Verdict& verdict,
+bool Examiner::FindUnsolved(const Place& place, const Verdict& verdict,
                             const std::vector<Pivot<Scalar>>& pivots, const ExactProblem& problem) {
   const Outcome outcome = verdict.outcome;
   const bool safe_cycle = outcome == Outcome::kCycle && IsSafe(problem);
@@ -153,7 +152,8 @@ void Examiner::FindUnsolved(const Place& place, const Verdict& verdict,
   } else {
     signature += Signature(problem, verdict, pivots);
   }
-  collector_.Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), std::move(signature), problem);
+  return collector_.Find(place, outcome, safe_cycle ? kSafeCycle : Name(outcome), std::move(signature),
+                         problem);
 }
 
 void Examiner::CompareFiltered(const Place& place, const Verdict& filtered, const ExactRun& run,

@@ -41,14 +41,15 @@ class Examiner {
   OnRung Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs);
   // The outcome in exact arithmetic: that of certified signs, or of a run over rationals.
   Outcome Decide(const Place& place, const ExactProblem& problem, const OnRung& filtered, bool suspected);
-  // What is not solved, by certified signs: complete driving must solve it.
+  // What is not solved, by certified signs: complete driving must solve the first of a group in the unit.
   void Confirm(const Place& place, const ExactProblem& problem, const OnRung& filtered);
   // Runs exactly, counts, compares; returns the exact outcome. `filtered`: what was said with certified signs,
-  // null if nothing. What is solved and not drawn, other methods do not see.
+  // null if nothing. Other methods see what is drawn, and the first of each group that is not solved.
   Outcome Examine(const Place& place, const ExactProblem& problem, const Verdict* filtered, bool suspected,
                   bool drawn = true);
+  // Whether it is the first of its group in the unit.
   template <class Scalar>
-  void FindUnsolved(const Place& place, const Verdict& verdict, const std::vector<Pivot<Scalar>>& pivots,
+  bool FindUnsolved(const Place& place, const Verdict& verdict, const std::vector<Pivot<Scalar>>& pivots,
                     const ExactProblem& problem);
   // Certified signs are those of rationals: the same end after the same steps.
   void CompareFiltered(const Place& place, const Verdict& filtered, const ExactRun& run,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,19 +21,41 @@ namespace {
 
 constexpr double kWrongAnswer = 1e-6;  // error (solver/problem/errors.h)
 
+// Of a unit: the first problem that is audited, and from there on one in `audit_every`. Where it stands is
+// drawn, so that units smaller than that are audited no more often than large ones.
+class Audits {
+ public:
+  Audits(const Campaign& campaign, std::int64_t unit)
+      : every_(campaign.audit_every),
+        until_(
+            static_cast<std::int64_t>(Mix(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), kNone)) %
+                                      static_cast<std::uint64_t>(every_))) {}
+
+  // Of the next problem.
+  bool Next() {
+    if (until_-- > 0) return false;
+    until_ = every_ - 1;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();  // the index of no problem
+
+  std::int64_t every_, until_;
+};
+
 // draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
 template <class Draw, class Attempt>
 void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkMeter& meter, Draw draw,
             Attempt attempt) {
   SampledDraws draws;
   const std::int64_t problems = UnitProblems(campaign, task);
-  std::int64_t until_audit = 1;  // the first problem is audited
+  Audits audits(campaign, unit);
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(
         ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
     draws(index, [&] { draw(choices); });
-    const bool audit = --until_audit == 0;
-    if (audit) until_audit = campaign.audit_every;
+    const bool audit = audits.Next();
     for (std::size_t policy = 0; policy < campaign.policies.size(); ++policy) attempt(index, policy, audit);
   }
   meter.Attribute(&ProcessorTime::generation, draws.Nanoseconds(problems));
@@ -100,13 +123,14 @@ class PlanarKernel final : public Kernel {
   void RunBatched(std::int64_t unit, const Task& task, const Surroundings& surroundings, Collector& collector,
                   Examiner& examiner) {
     const std::int64_t problems = UnitProblems(campaign_, task);
+    Audits audits(campaign_, unit);
     for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
       const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
       DrawBlock(unit, task, surroundings, first, count, collector);
       batch_->Run(count);
       for (int i = 0; i < count; ++i) {
         const std::int64_t index = first + i;
-        const bool audit = index % campaign_.audit_every == 0;
+        const bool audit = audits.Next();
         drawn_ = batch_->DrawnOf(i);
         if (batch_->IsLeft(i)) {
           batch_->Get(i, problem_);
