@@ -4,6 +4,7 @@
 Takes the path of the program, and that of the sources, as the other scripts do."""
 
 import argparse
+import math
 import re
 import sys
 import tempfile
@@ -137,6 +138,31 @@ class Intervals(unittest.TestCase):
                                      (10, 10, 0.6915, 1), (2, 13, 0.0192, 0.4545)):
             self.assertAlmostEqual(intervals.clopper_pearson(count, of)[0], low, 4)
             self.assertAlmostEqual(intervals.clopper_pearson(count, of)[1], high, 4)
+
+    def test_a_power_law_is_found_again(self):
+        sizes = [(x, y) for x in (0.25, 0.5, 1) for y in (3, 4, 5)]
+        # Counts that are as the law has them, and some that miss it.
+        exact = [(round(1000 * x**3 * y**2), 1000, x, y) for x, y in sizes]
+        law = intervals.power_law(exact)
+        for name, value in (("p", 3), ("q", 2)):
+            found, low, high = law[name]
+            self.assertAlmostEqual(found, value, 2)
+            self.assertLess(low, value)
+            self.assertLess(value, high)
+        self.assertAlmostEqual(law["C"], 1, 2)
+        self.assertLess(law["deviance"], law["freedom"])
+        missed = [(k * (2 if i % 2 else 1), *rest) for i, (k, *rest) in enumerate(exact)]
+        wide = intervals.power_law(missed)
+        self.assertGreater(wide["deviance"], 100 * wide["freedom"])
+        self.assertGreater(wide["p"][2] - wide["p"][1], 10 * (law["p"][2] - law["p"][1]))
+
+    def test_one_count_has_the_interval_of_its_likelihood(self):
+        # Two cells of x alone: k2 / k1 = x^p, and log of it is nearly normal with variance 1 / k1 + 1 / k2.
+        law = intervals.power_law([(400, 1, 1, 1), (100, 1, 0.5, 1), (400, 1, 1, 2), (100, 1, 0.5, 2)])
+        half = 1.96 * math.sqrt(1 / 800 + 1 / 200) / math.log(2)
+        self.assertAlmostEqual(law["p"][0], 2, 3)
+        self.assertAlmostEqual(law["p"][1], 2 - half, 1)
+        self.assertAlmostEqual(law["p"][2], 2 + half, 1)
 
     def test_the_program_prints_the_same(self):
         with tempfile.TemporaryDirectory() as folder:

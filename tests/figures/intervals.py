@@ -79,3 +79,59 @@ def clopper_pearson(count, of):
     low = root(lambda p: beta_tail(p, count, of - count + 1), TAIL, 0, 1) if count else 0.0
     high = root(lambda p: beta_tail(p, count + 1, of - count), 1 - TAIL, 0, 1) if count < of else 1.0
     return low, high
+
+
+# ---- A power of two sizes ------------------------------------------------------------------------------------
+
+NORMAL = 1.959964  # the standard normal's quantile at 97.5 %
+
+
+def largest(function, low, high):
+    """Where a concave function is largest."""
+    for _ in range(60):
+        left, right = low + (high - low) / 3, high - (high - low) / 3
+        if function(left) < function(right):
+            low = left
+        else:
+            high = right
+    return (low + high) / 2
+
+
+def power_law(cells, most=20):
+    """The rate C x^p y^q of Poisson counts, fitted by likelihood to cells (count, of, x, y), some of which count. p and q
+    with their intervals at 95 %, of the profile likelihood, C, the deviance and its degrees of freedom. Where the law
+    misses by more than chance, the deviance being above its degrees, the intervals are wider by the root of what it is
+    above (quasi-likelihood)."""
+    total = sum(k for k, *_ in cells)
+
+    def expected(p, q):
+        return [of * x**p * y**q for _, of, x, y in cells]
+
+    def likelihood(p, q):  # C is best
+        return sum(k * (p * math.log(x) + q * math.log(y)) for k, _, x, y in cells) - total * math.log(sum(expected(p, q)))
+
+    def best_q(p):
+        return largest(lambda q: likelihood(p, q), -most, most)
+
+    def best_p(q):
+        return largest(lambda p: likelihood(p, q), -most, most)
+
+    p = largest(lambda p: likelihood(p, best_q(p)), -most, most)
+    q = best_q(p)
+    scale = total / sum(expected(p, q))
+    misses = [(k, scale * mean) for (k, *_), mean in zip(cells, expected(p, q))]
+    deviance = 2 * sum((k * math.log(k / mean) if k else 0) - (k - mean) for k, mean in misses)
+    freedom = len(cells) - 3
+    drop = NORMAL**2 / 2 * max(1, deviance / freedom)
+
+    def ends(profile, at):
+        wanted = profile(at) - drop
+        return root(profile, wanted, -most, at), -root(lambda z: profile(-z), wanted, -most, -at)
+
+    def of_p(z):
+        return likelihood(z, best_q(z))
+
+    def of_q(z):
+        return likelihood(best_p(z), z)
+
+    return {"p": (p, *ends(of_p, p)), "q": (q, *ends(of_q, q)), "C": scale, "deviance": deviance, "freedom": freedom}

@@ -105,6 +105,11 @@ MEASUREMENTS = [
     Measurement("scenes-by-mu", "long", search.scenes_by_mu,
                 "How often the policy `paper` loops, and ends because a force direction does not exist, on problems "
                 "of the generator `scenes`, one friction coefficient for all contacts."),
+    Measurement("at-rest", "long", search.at_rest,
+                "How often the policy `paper` loops on convex bodies of uniform density at rest under gravity alone, by "
+                "contacts and friction, and a law through it."),
+    Measurement("engine-steps", "long", search.engine_steps,
+                "The same on steps of an engine (generator `steps`)."),
     Measurement("adversary", "minutes", bench.adversary,
                 "How many times worse for the solver than the best of random problems the best of each optimizer "
                 "is, by seed, with as many evaluations: `inf` where random problems have no value, `-` where "
