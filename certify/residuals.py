@@ -16,8 +16,8 @@ sticks, slips), each condition in the contact's units; the law is Coulomb's:
     unit of f_i   that of a_i / A_ii
     W             min(abs(f'Af), abs(power of sliding friction - b'f)), over the contacts that A couples to i
 
-Trusted: Python and this file, which was written from solver/problem/units.h and errors.h as they describe them, and shares
-no code with the C++. It judges; it proves nothing: check_certificate.py does."""
+Trusted: Python and this file, which was written from what solver/problem/units.h and errors.h say, and shares no code
+with the C++. It judges; it proves nothing: check_certificate.py does."""
 
 import json
 import math
@@ -223,13 +223,35 @@ def triplets(matrix):
 
 
 def read(path):
-    with open(path, "rb") as file:
-        start = file.read(4)
-    if start == b"\x89HDF":
-        return of_fclib(path)
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    return of_json(json.loads(text)) if text.lstrip().startswith("{") else of_siconos(text)
+    try:
+        with open(path, "rb") as file:
+            data = file.read()
+        if data.startswith(b"\x89HDF"):
+            return of_fclib(path)
+        text = data.decode()
+        return of_json(json.loads(text)) if text.lstrip().startswith("{") else of_siconos(text)
+    except OSError as error:
+        sys.exit(f"residuals: {path}: found nothing to read ({error.strerror}), expected a problem")
+    except (ValueError, KeyError, IndexError, TypeError, ZeroDivisionError, StopIteration) as error:
+        sys.exit(f"residuals: {path}: found no problem that can be read ({type(error).__name__}: {error}), expected "
+                 "one in JSON, a Siconos friction problem or LCP, or an FCLIB file; `stiction import` says what is "
+                 "wrong, and where")
+
+
+def forces_of(path, rows):
+    """Forces in newtons, and the residual that the answer names."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            answer = json.load(file)
+        f = [number(x) for x in answer["f"]]
+        said = float(answer.get("residual", 0.0))
+    except OSError as error:
+        sys.exit(f"residuals: {path}: found nothing to read ({error.strerror}), expected what solve --json prints")
+    except (ValueError, KeyError, TypeError, AttributeError):
+        sys.exit(f"residuals: {path}: found no list f of forces, expected what solve --json prints of a solution")
+    if len(f) != rows:
+        sys.exit(f"residuals: {path}: found {len(f)} forces, expected {rows}, one for each row of the problem")
+    return f, said
 
 
 # ---- Errors --------------------------------------------------------------------------------------------------
@@ -330,13 +352,8 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     problem = read(sys.argv[1])
-    with open(sys.argv[2], encoding="utf-8") as file:
-        answer = json.load(file)
-    f = [number(x) for x in answer.get("f") or sys.exit("residuals: the answer has no forces f")]
-    if len(f) != len(problem.b):
-        sys.exit(f"residuals: {len(f)} forces for {len(problem.b)} rows")
+    f, said = forces_of(sys.argv[2], len(problem.b))
     error, contact = largest(problem, f)
-    said = answer.get("residual", 0.0)
     print(f"error {error:.3g} at contact {contact}; the answer says {said:.3g}")
     return 1 if error > 2 * said and error - said >= 1e-12 else 0
 

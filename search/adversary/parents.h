@@ -21,7 +21,7 @@ namespace stiction {
 //   STORE                                          the best of a search with an objective, or all findings
 //   a folder                                       its files NAME.json, in the order of their names
 //
-// Of stores and folders only what fits the campaign (FitsAsParent). InputError: what cannot be read, is no
+// Of stores and folders only what fits the campaign (ObstacleOf). InputError: what cannot be read, is no
 // candidate, or a store or folder of which nothing fits.
 std::vector<Candidate> ParentsFrom(const std::string& source, const Campaign& campaign);
 

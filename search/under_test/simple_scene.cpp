@@ -6,6 +6,7 @@
 
 #include "corpus/record/problem_file.h"
 #include "search/adversary/minimize_candidate.h"
+#include "search/adversary/parents.h"
 #include "search/under_test/judge_forces.h"
 #include "search/under_test/solver_process.h"
 
@@ -16,14 +17,7 @@ namespace {
 Candidate DrawnFor(const Finding& finding, const Campaign& campaign) {
   if (!campaign.objective.empty())
     return CandidateOf(ParseProblem(finding.problem, finding.signature), finding.signature);
-  const Task task = TaskOf(Schedule(campaign), finding.unit);
-  std::vector<Choice> made;
-  Choices choices(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(finding.unit),
-                              static_cast<std::uint64_t>(finding.index)),
-                  &made);
-  ContactProblem<double> problem;
-  Generate(task.generator, task.contacts, SurroundingsOf(campaign), choices, problem);
-  return {task.generator, task.contacts, {0, 1}, campaign.gravity_only, ValuesOf(made)};
+  return CandidateOf(campaign, finding.unit, finding.index);
 }
 
 ContactProblem<double> AsPosed(const Candidate& scene, SolverLaw law) {

@@ -61,6 +61,19 @@ class Residuals(cli.TestCase):
                 self.assertEqual(code, 1)
                 self.assertGreater(found, 1e-8)
 
+    def test_bad_input_is_refused_in_a_line(self):
+        problem = SOURCES / "corpus/space/cube-slides-on-four-corners.json"
+        none = self.folder / "none"
+        for case, arguments in {"no problem": [none, problem], "no answer": [problem, none],
+                                "not JSON": [self.file("a.json", "{"), problem],
+                                "not Siconos": [self.file("b.dat", "2 x"), problem],
+                                "no forces": [problem, problem],
+                                "too few": [problem, self.file("c.json", '{"f": [1]}')]}.items():
+            with self.subTest(case=case):
+                done = subprocess.run([sys.executable, SCRIPT, *arguments], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, r"\Aresiduals: .*expected.*\n\Z")
+
     @unittest.skipUnless("STICTION_DATA" in os.environ, "needs STICTION_DATA")
     def test_of_problems_that_others_published(self):
         for name in PUBLISHED:
