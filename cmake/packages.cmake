@@ -88,7 +88,7 @@ Does the pivoting algorithm of D. Baraff for contact forces with friction
 them step by step, certifies them in exact arithmetic, and reports on them.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libstiction-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libeigen3-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pivoting methods for contact forces with friction, as a library
 Headers, static libraries and CMake files for C++, and stiction.h for C: the
 published algorithm of D. Baraff (1994) under every reading of its text,

@@ -328,19 +328,30 @@ void SimulationIn<Kind>::CorrectPositions() {
 
 template <class Kind>
 bool SimulationIn<Kind>::Collides() const {
-  return std::any_of(contacts_.begin(), contacts_.end(), [this](const Touch& contact) {
-    const auto closes = [&](double speed) {
-      return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
-    };
-    const double speed = ApproachOf(scene_, contact);
-    return closes(speed) && closes(speed - before_ / 2 * ContactConstraint(scene_, contact).rows[0].bias);
-  });
+  return std::any_of(contacts_.begin(), contacts_.end(),
+                     [this](const Touch& contact) { return Collides(contact); });
 }
 
 template <class Kind>
+bool SimulationIn<Kind>::Collides(const Touch& contact) const {
+  const auto closes = [&](double speed) {
+    return speed < -scene_.rest && std::max(contact.gap, 0.0) + step_ * speed < 0;
+  };
+  const double speed = ApproachOf(scene_, contact);
+  return closes(speed) && closes(speed - before_ / 2 * ContactConstraint(scene_, contact).rows[0].bias);
+}
+
+// To the islands alone in which something collides.
+template <class Kind>
 void SimulationIn<Kind>::ApplyImpulses() {
   ++statistics_.collisions;
-  const Model model = AssembleAt(Level::kImpulses);
+  Model model = AssembleAt(Level::kImpulses);
+  std::erase_if(model.islands, [&](const auto& island) {
+    return std::none_of(island.constraints.begin(), island.constraints.end(), [&](int k) {
+      const auto& constraint = model.constraints[k];
+      return !constraint.from_joint && Collides(contacts_[constraint.source]);
+    });
+  });
   Forces p;
   if (!Solve(model, Level::kImpulses, p)) Fail(model, Level::kImpulses, failed_);
   const Changes change = Response(model, p);

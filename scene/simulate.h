@@ -213,6 +213,7 @@ class SimulationIn {
   Changes Response(const Model& model, const Forces& f) const;
   bool HasDrifted() const;
   bool Collides() const;
+  bool Collides(const Touch& contact) const;
   void CorrectPositions();
   void ApplyImpulses();
   Changes Accelerations();

@@ -18,17 +18,17 @@
 // From forces near a solution, as those of the frame before, one or two points with small eps end it; of forces
 // that are not unique it takes some near the start. Called solved are forces whose errors (problem/errors.h)
 // are at most `residual`; whatever else is undecided, and the best forces are returned.
-// Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Floating-point scalars.
+// Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Doubles.
 // Cost    a sparse LDL' or, where something slips, LU factorization per step of Newton's method.
 
 #ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
 #define STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <cstdint>
 #include <vector>
 
+#include "solver/linear/sparse_lu.h"
 #include "solver/problem/errors.h"
 #include "solver/problem/factored.h"
 #include "solver/problem/options.h"
@@ -44,7 +44,7 @@ struct BodyNewtonOptions {
   int points = 100;     // proximal problems tried
   int newton = 20;      // steps of Newton's method for each of them
   int failures = 1000;  // proximal problems that Newton's method may not solve
-  int halvings = 3;     // of a step that does not make R smaller
+  int halvings = 6;     // of a step that does not make R smaller
   double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2
   Limits limits = {};   // of them `stop` alone counts
 };
@@ -118,7 +118,8 @@ class BodyNewton {
   std::vector<int> slots_, mass_slots_;
   std::vector<int> known_columns_, known_rows_;  // of the pattern that K has
   std::vector<int> known_mass_;
-  std::vector<Scalar> D_;  // by contact
+  std::vector<Scalar> D_;               // by contact
+  std::vector<Scalar> near_, largest_;  // of one contact's columns, and of those of all
 
   Scalar eps_ = Scalar(0);
   Vector center_;  // of the proximal point
@@ -133,7 +134,7 @@ class BodyNewton {
 
   Matrix K_;
   Eigen::SimplicialLDLT<Matrix> ldlt_;
-  Eigen::SparseLU<Matrix> lu_;
+  SparseLu lu_;
 };
 
 }  // namespace stiction

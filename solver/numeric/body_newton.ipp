@@ -64,6 +64,7 @@ void BodyNewton<Scalar>::Start(const Problem& problem, const Vector* start) {
   problem_ = &problem;
   verdict_ = {};
   is_factored_ = false;
+  lu_.ForgetPivots();
   TakePieces();
   TakePattern();
   if (start != nullptr) {
@@ -118,6 +119,9 @@ void BodyNewton<Scalar>::TakePieces() {
   for (Scalar& d : D_) {
     if (!(d > 0)) d = largest > 0 ? largest : Scalar(1);
   }
+  int width = 0;
+  for (const Piece& piece : pieces_) width = std::max(width, piece.columns);
+  near_.resize(width);
 }
 
 // K's pattern, its ordering, and where the pieces and M stand in it; kept where they are those of the run
@@ -216,28 +220,34 @@ void BodyNewton<Scalar>::Evaluate() {
   symmetric_ = true;
   R_ = problem_->M * (v_ - problem_->w);
   size_ = R_.size() > 0 ? R_.cwiseAbs().maxCoeff() : Scalar(0);
+  largest_.assign(near_.size(), Scalar(0));
   for (std::size_t c = 0; c < pieces_.size(); ++c) {
     const Piece& piece = pieces_[c];
     const int* columns = columns_.data() + piece.column;
     const Scalar* J = entries_.data() + piece.entry;
     const Scalar slope = 1 / (eps_ * D_[c]);
+    const int width = piece.columns;
+    for (int k = 0; k < width; ++k) near_[k] = v_[columns[k]];
     std::array<Scalar, 3> p{};
     for (int i = 0; i < piece.rows; ++i) {
       Scalar a = problem_->c[piece.row + i];
-      for (int k = 0; k < piece.columns; ++k) a += J[i * piece.columns + k] * v_[columns[k]];
+      for (int k = 0; k < width; ++k) a += J[i * width + k] * near_[k];
       p[i] = center_[piece.row + i] - a * slope;
     }
     Law(static_cast<int>(c), p, slope);
+    if (f_[piece.row] == 0) continue;  // and with it its friction
+    std::fill(near_.begin(), near_.begin() + width, Scalar(0));
     for (int i = 0; i < piece.rows; ++i) {
       const Scalar force = f_[piece.row + i];
-      if (force == 0) continue;
-      for (int k = 0; k < piece.columns; ++k) {
-        const Scalar part = J[i * piece.columns + k] * force;
-        R_[columns[k]] -= part;
-        size_ = std::max(size_, Scalar(Abs(part)));
+      for (int k = 0; k < width; ++k) {
+        const Scalar part = J[i * width + k] * force;
+        near_[k] += part;
+        largest_[k] = std::max(largest_[k], Scalar(Abs(part)));
       }
     }
+    for (int k = 0; k < width; ++k) R_[columns[k]] -= near_[k];
   }
+  for (const Scalar part : largest_) size_ = std::max(size_, part);
 }
 
 // The forces that p asks for, and their slope.
@@ -308,10 +318,9 @@ bool BodyNewton<Scalar>::Factor() {
   }
   uses_lu_ = !symmetric_;
   if (uses_lu_) {
-    if (!lu_knows_) lu_.analyzePattern(K_);
+    if (!lu_knows_) lu_.Order(K_);
     lu_knows_ = true;
-    lu_.factorize(K_);
-    is_factored_ = lu_.info() == Eigen::Success;
+    is_factored_ = lu_.Factor(K_);
   } else {
     ldlt_.factorize(K_);
     is_factored_ = ldlt_.info() == Eigen::Success;
@@ -323,7 +332,7 @@ bool BodyNewton<Scalar>::Factor() {
 
 template <class Scalar>
 auto BodyNewton<Scalar>::Solved(const Vector& y) -> Vector {
-  if (uses_lu_) return lu_.solve(y);
+  if (uses_lu_) return lu_.Solve(K_, y);
   return ldlt_.solve(y);
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Newton's matrix of laws that each concern one contact: J = D + E A, where D and E have a block per contact.
-// For a dense A and for a sparse one. Floating-point scalars.
+// For a dense A of floating-point scalars, and for a sparse one of doubles.
 
 #ifndef STICTION_SOLVER_NUMERIC_CONTACT_SLOPE_H_
 #define STICTION_SOLVER_NUMERIC_CONTACT_SLOPE_H_
 
 #include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <limits>
 #include <vector>
+
+#include "solver/linear/sparse_lu.h"
 
 namespace stiction {
 
@@ -80,8 +81,9 @@ DenseVector<Scalar> SolveLinear(const DenseMatrix<Scalar>& J, const DenseVector<
 }
 template <class Scalar>
 DenseVector<Scalar> SolveLinear(const Eigen::SparseMatrix<Scalar>& J, const DenseVector<Scalar>& y) {
-  const Eigen::SparseLU<Eigen::SparseMatrix<Scalar>> factors(J);
-  if (factors.info() == Eigen::Success) return factors.solve(y);
+  SparseLu lu;
+  lu.Order(J);
+  if (lu.Factor(J)) return lu.Solve(J, y);
   return DenseVector<Scalar>::Constant(y.size(), std::numeric_limits<Scalar>::quiet_NaN());
 }
 

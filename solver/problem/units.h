@@ -53,6 +53,14 @@ class Groups {
  public:
   template <class Problem>
   void Find(const Problem& problem) {
+    Begin(problem);
+    ForEachEntry(problem.A, [this](int i, int j, const auto& x) { Join(i, j, x); });
+    End();
+  }
+
+  // Find in parts: Join for each entry, between the two.
+  template <class Problem>
+  void Begin(const Problem& problem) {
     const int count = static_cast<int>(problem.contacts.size());
     contact_of_.clear();
     for (int i = 0; i < count; ++i)
@@ -60,14 +68,17 @@ class Groups {
                          i);
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);
-    int groups = count;
-    ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
-      if (groups == 1 || contact_of_[i] == contact_of_[j] || x == 0) return;
-      const int one = Root(contact_of_[i]), other = Root(contact_of_[j]);
-      groups -= one != other;
-      parent_[std::max(one, other)] = std::min(one, other);
-    });
-    for (int i = 0; i < count; ++i) parent_[i] = Root(i);
+    groups_ = count;
+  }
+  template <class Scalar>
+  void Join(int i, int j, const Scalar& x) {
+    if (groups_ == 1 || contact_of_[i] == contact_of_[j] || x == 0) return;
+    const int one = Root(contact_of_[i]), other = Root(contact_of_[j]);
+    groups_ -= one != other;
+    parent_[std::max(one, other)] = std::min(one, other);
+  }
+  void End() {
+    for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = Root(static_cast<int>(i));
   }
 
   int ContactOf(int row) const { return contact_of_[row]; }
@@ -83,6 +94,7 @@ class Groups {
 
   std::vector<int> contact_of_;  // by row
   std::vector<int> parent_;      // by contact
+  int groups_ = 0;
 };
 
 template <class Scalar>
@@ -91,7 +103,7 @@ class Units {
   // Of forces f with accelerations a = A f + b. Scalar: that of f and a; it may be wider than the problem's.
   template <class Problem, class Vector>
   void Take(const Problem& problem, const Vector& f, const Vector& a) {
-    groups_.Find(problem);
+    groups_.Begin(problem);
     const int rows = problem.rows();
     own_.resize(rows);
     force_.resize(rows);  // for now what counts of each force
@@ -103,11 +115,13 @@ class Units {
     sum_.assign(rows, Scalar(0));
     size_.assign(rows, Scalar(0));
     ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
+      groups_.Join(i, j, x);
       if (!(force_[j] > 0)) return;
       const Scalar entry = Abs(Scalar(x));
       sum_[i] += entry * force_[j];
       if (f[j] != 0) size_[i] += entry * Abs(f[j]);
     });
+    groups_.End();
     acceleration_.resize(rows);
     TakeWork(problem, f, a);
     for (int i = 0; i < rows; ++i) {

@@ -130,6 +130,21 @@ TEST_CASE("simulate: a collision is inelastic") {
   CHECK(simulation.scene().bodies[1].velocity.norm() < 1e-12);
 }
 
+TEST_CASE("simulate: where nothing collides a collision elsewhere changes nothing") {
+  Scene<double> scene = SceneInDoubles("stack");
+  scene.bodies.push_back(scene.bodies[1]);
+  scene.bodies.back().position = {6, 0.7};  // falls, lands beside the stack
+  int collisions = 0;
+  const auto observe = [&collisions](const FrameProblem& met) {
+    if (met.level != Level::kImpulses) return;
+    ++collisions;
+    CHECK(met.problem.contacts.size() == 2);
+  };
+  Simulation both(scene, {}, observe);
+  for (int i = 0; i < 100; ++i) both.Step();
+  CHECK(collisions > 0);
+}
+
 TEST_CASE("simulate: of three solutions the contact that can leave leaves") {
   Simulation simulation = Run("three-solutions", 1);
   REQUIRE(simulation.forces().size() == 1);
