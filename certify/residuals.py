@@ -5,7 +5,7 @@
     stiction solve FILE --json > answer.json
     python3 certify/residuals.py FILE answer.json
 
-FILE: a problem in JSON, a Siconos friction problem or LCP (.dat), or an FCLIB local problem (.hdf5, by h5py of Debian's
+FILE: a problem in JSON, a Siconos friction problem or LCP (.dat), or an FCLIB problem (.hdf5, by h5py of Debian's
 python3-h5py). Prints the largest error, its contact (from 1), and the residual that the answer itself names; exit 1
 where the one found here is more than twice that, and 1e-12 more.
 
@@ -22,6 +22,7 @@ with the C++. It judges; it proves nothing: check_certificate.py does."""
 import json
 import math
 import sys
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 NONE = math.inf
@@ -191,35 +192,98 @@ def of_fclib(path):
     except ImportError:
         sys.exit("residuals: HDF5 files are read with h5py: install Debian's python3-h5py")
     with h5py.File(path) as file:
-        if "fclib_local" not in file:
-            sys.exit("residuals: of FCLIB's problems the local ones are read")
-        group = file["fclib_local"]
+        kind = next((name for name in ("fclib_local", "fclib_global") if name in file), None)
+        if kind is None:
+            sys.exit("residuals: of FCLIB's problems the local and the global ones are read")
+        group = file[kind]
         dimension = int(group["spacedim"][0])
-        W, rows = triplets(group["W"])
+        W, b, equations = (of_local if kind == "fclib_local" else of_global)(group)
         contacts = [Contact("static", float(x)) for x in group["vectors/mu"][()]]
-        b = [float(x) for x in group["vectors/q"][()]]
-        if "R" in group:
-            s = [float(x) for x in group["vectors/s"][()]] if "s" in group["vectors"] else []
-            contacts += [Contact("bilateral") for _ in s]
-            b += s
-            R, _ = triplets(group["R"])
-            V, _ = triplets(group["V"])
-            W += [(rows + i, rows + j, x) for i, j, x in R]
-            W += [one for i, j, x in V for one in ((i, rows + j, x), (rows + j, i, x))]
-    problem = Problem(dimension, contacts, b)
+    problem = Problem(dimension, contacts + [Contact("bilateral") for _ in range(equations)], b)
     for i, j, x in W:
         problem.add(i, j, x)
     return problem
 
 
+def vector(group, name, length=None):
+    """Its numbers; without a length none where it is not there."""
+    numbers = [float(x) for x in group["vectors"][name][()]] if length is not None or name in group["vectors"] else []
+    if length is not None and len(numbers) != length:
+        raise ValueError(f"{len(numbers)} numbers in vectors/{name}, for {length} rows")
+    return numbers
+
+
+def of_local(group):
+    """Entries of A, b, and how many equations stand behind the contacts."""
+    W, rows, _ = triplets(group["W"])
+    b, s = vector(group, "q", rows), []
+    if "R" in group:
+        R, equations, _ = triplets(group["R"])
+        s = vector(group, "s", equations) if equations else []
+        W += [(rows + i, rows + j, x) for i, j, x in R]
+        W += [one for i, j, x in triplets(group["V"])[0] for one in ((i, rows + j, x), (rows + j, i, x))]
+    return W, b + s, len(s)
+
+
+def of_global(group):
+    """The same of M v = H r + G l + f, (u, 0) = H'v + (w, 0) and G'v + b: v is eliminated from
+
+        [M  -H  -G  -f]
+        [H'  0   0   w]
+        [G'  0   0   b]
+
+    over numbers of 60 digits, which are rounded once A is there."""
+    M, velocities, _ = triplets(group["M"])
+    H, _, rows = triplets(group["H"])
+    G, _, equations = triplets(group["G"]) if "G" in group else ([], 0, 0)
+    B = H + [(i, rows + j, x) for i, j, x in G]
+    right = vector(group, "w", rows) + (vector(group, "b", equations) if equations else [])
+    last = velocities + rows + equations
+    entries = M + [(i, velocities + j, -x) for i, j, x in B] + [(velocities + j, i, x) for i, j, x in B]
+    entries += [(i, last, -x) for i, x in enumerate(vector(group, "f", velocities))]
+    entries += [(velocities + i, last, x) for i, x in enumerate(right)]
+    with localcontext() as context:
+        context.prec = 60
+        table = [{} for _ in range(last)]
+        for i, j, x in entries:
+            table[i][j] = table[i].get(j, 0) + Decimal(x)
+        eliminate(table, velocities)
+    rest = [row for row in table[velocities:]]
+    A = [(i, j - velocities, float(x)) for i, row in enumerate(rest) for j, x in row.items() if velocities <= j < last]
+    return A, [float(row.get(last, 0)) for row in rest], equations
+
+
+def eliminate(table, count):
+    """The first `count` columns from all rows below, by the pivots of the diagonal."""
+    below = [set() for _ in range(count)]  # rows that have an entry in the column
+    for i, row in enumerate(table):
+        for j in row:
+            if j < min(i, count):
+                below[j].add(i)
+    for k in range(count):
+        pivot = table[k]
+        if not pivot.get(k):
+            raise ValueError(f"a zero pivot in row {k} of M")
+        for i in below[k]:
+            factor = table[i].pop(k) / pivot[k]
+            for j, x in pivot.items():
+                if j > k:
+                    table[i][j] = table[i].get(j, 0) - factor * x
+                    if j < min(i, count):
+                        below[j].add(i)
+
+
 def triplets(matrix):
-    """(row, column, number) of CSparse's three storages; rows of triplets stand in i."""
+    """(row, column, number) of CSparse's three storages, and how many rows and columns. Rows of triplets stand in i, or
+    where they do not fit there, in p."""
     m, n, nz = (int(matrix[name][0]) for name in ("m", "n", "nz"))
     p, i, x = (matrix[name][()].tolist() for name in ("p", "i", "x"))
     if nz >= 0:
-        return list(zip(i, p, x))[:nz], m
+        if any(k >= m for k in i[:nz]) or any(k >= n for k in p[:nz]):
+            i, p = p, i
+        return list(zip(i, p, x))[:nz], m, n
     lines = [(line, k) for line in range(n if nz == -1 else m) for k in range(p[line], p[line + 1])]
-    return [(i[k], line, x[k]) if nz == -1 else (line, i[k], x[k]) for line, k in lines], m
+    return [(i[k], line, x[k]) if nz == -1 else (line, i[k], x[k]) for line, k in lines], m, n
 
 
 def read(path):
