@@ -23,14 +23,15 @@ from fractions import Fraction
 from math import isinf, isqrt, lcm
 from stat import S_ISREG
 
-MOST_BYTES = 1 << 24
+MOST_BYTES = 1 << 25
 MOST_DEPTH = 100
-MOST_CHARACTERS = 20000
-MOST_DIGITS = 10_000_000
-MOST_ROWS = 1000
+MOST_CHARACTERS = 40000
+MOST_DIGITS = 20_000_000
+MOST_ROWS = 3000
 MOST_OPERATIONS = 2_000_000
 MOST_WORK = 10**13
 sys.set_int_max_str_digits(0)  # of what is computed
+ZERO = Fraction(0)  # the one that stands where a sparse matrix has no entry: `is` is cheaper than a comparison
 
 
 class Rejected(Exception):
@@ -200,7 +201,7 @@ def matrix(value, place, size, number):
         i, j = (integer(item[k], f"{at}[{k}]", 0, size) for k in (0, 1))
         need((i, j) not in entries, at, (i, j), "each entry once")
         entries[i, j] = number(item[2], at + "[2]")
-    A = [[Fraction(0)] * size for _ in range(size)]
+    A = [[ZERO] * size for _ in range(size)]
     for (i, j), x in entries.items():
         need(i >= j or (j, i) in entries, place + ".entries", (i, j), f"{[j, i]} as well")
         A[i][j] = x
@@ -214,6 +215,40 @@ def dot(x, y):
 
 def times(A, x):
     return [dot(row, x) for row in A]
+
+
+def entries_of(A):
+    """Of every row its (column, number), zeros left out."""
+    return [[(j, x) for j, x in enumerate(row) if x is not ZERO and x] for row in A]
+
+
+def groups_of(entries):
+    """The rows by groups: no entry of A lies in the rows of one and the columns of another."""
+    first = list(range(len(entries)))  # of its group; of the last of those joined so far: another of it
+
+    def group(i):
+        while first[i] != i:
+            first[i] = i = first[first[i]]
+        return i
+
+    for i, row in enumerate(entries):
+        for j, _ in row:
+            first[group(j)] = group(i)
+    groups = {}
+    for i in range(len(entries)):
+        groups.setdefault(group(i), []).append(i)
+    return list(groups.values())
+
+
+def long_times(A, x):
+    """A x, A square: the numbers of x in every group of rows over their common denominator."""
+    entries, product = entries_of(A), [Fraction(0)] * len(x)
+    for group in groups_of(entries):
+        denominator = lcm(*(x[j].denominator for j in group))
+        integers = {j: x[j].numerator * (denominator // x[j].denominator) for j in group if x[j]}
+        for i in group:
+            product[i] = sum((y * integers[j] for j, y in entries[i] if j in integers), Fraction(0)) / denominator
+    return product
 
 
 # --- Problems ----------------------------------------------------------------------
@@ -264,7 +299,7 @@ def digest(problem):
     lines = ["stiction-problem 1", f"dimension {problem.dimension}"]
     lines += [" ".join([kind, *map(str, [] if mu is None else [mu]), *map(str, slip)])
               for kind, mu, slip in problem.contacts]
-    lines += [" ".join([letter, *map(str, row)])
+    lines += [" ".join([letter, *("0" if x is ZERO else str(x) for x in row)])
               for letter, row in [*(("A", row) for row in problem.A), ("b", problem.b)]]
     return "sha256:" + hashlib.sha256("".join(line + "\n" for line in lines).encode("ascii")).hexdigest()
 
@@ -281,6 +316,23 @@ def planar_contacts(problem):
 
 
 # --- What a check will cost, bounded before it begins ---------------------------
+
+def require_cheap_product(problem, x, squared=False):
+    """Of A x or A'x, added up over the groups of rows that A couples: so many rows of long numbers, and entries by which
+    long ones are multiplied. `squared`: all rows are added up, and x counts twice, as for x'Ax."""
+    entries, columns = entries_of(problem.A), [[] for _ in x]
+    for i, row in enumerate(entries):
+        for j, y in row:
+            columns[j].append(y)
+    work = 0
+    for group in [range(len(x))] if squared else groups_of(entries):
+        cost = Cost(len(group))
+        longest = max((cost.bits(numbers) for i in group
+                       for numbers in ([problem.b[i], *(y for _, y in entries[i])], columns[i])), default=0)
+        bits = cost.add(longest).numbers([x[i] for i in group], 1 + squared).total
+        work += len(group) * bits**2 + sum(len(entries[i]) for i in group) * longest * bits // 8
+        need(work <= MOST_WORK, "$", f"a product of work {work}", f"at most {MOST_WORK}")
+
 
 def product_operations(n, times=1):
     """Of A x, n rows."""

@@ -9,7 +9,7 @@
 namespace stiction {
 
 // Of a certificate, which comes from anywhere.
-inline constexpr std::size_t kMostCharactersOfNumber = 20000;
+inline constexpr std::size_t kMostCharactersOfNumber = 40000;
 
 // A string is exact, a JSON number is taken at its double value; anything else is refused. Strict: strings
 // only, of at most kMostCharactersOfNumber characters.

@@ -65,8 +65,6 @@ void RequireHandled(const ExactProblem& problem, const std::string& source, cons
 
 // ---- Shared by several claims; Rejected for what is not so -------------------------------------
 
-// A x and x'Ax are not too dear.
-void RequireProduct(const ExactProblem& problem, const ExactVector& x);
 void RequireSymmetric(const ExactProblem& problem);
 // witness.f is a solution, and witness.a is A f + b.
 void RequireSolution(const ExactProblem& problem, const Json& witness);

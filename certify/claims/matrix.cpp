@@ -91,11 +91,6 @@ Json RangeCertificate(const ExactProblem& problem) {
 
 // ---- Checking ----------------------------------------------------------------------------------
 
-// A x and x'Ax are not too dear.
-void RequireProduct(const ExactProblem& problem, const ExactVector& x) {
-  Cost(ProductOperations(problem, 1)).LongestRow(problem).Vector(x, 2);
-}
-
 void RequireSymmetric(const ExactProblem& problem) {
   if (const auto pair = FindAsymmetry(problem.A)) {
     throw Rejected{fmt::format("problem.A[{}][{}]", pair->first, pair->second), "an entry unlike its mirror",
@@ -177,7 +172,7 @@ Json CheckDefinite(const ExactProblem& problem, const Json& witness) {
 std::pair<ExactVector, Rational> ReadCurvature(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
-  RequireProduct(problem, x);
+  RequireCheapSquare(problem, x);
   const Rational curvature = x.dot(problem.A * x);
   RequireEqual(ReadNumber(witness["value"], "witness.value"), curvature, "witness.value");
   return {x, curvature};
@@ -204,7 +199,7 @@ Json CheckInRange(const ExactProblem& problem, const Json& witness) {
   }
   RequireKeys(witness, "witness", {"x"});
   const ExactVector x = ReadVector(witness["x"], "witness.x", problem.rows());
-  RequireProduct(problem, x);
+  RequireCheapProduct(problem, x);
   const ExactVector image = problem.A * x;
   for (int i = 0; i < problem.rows(); ++i) RequireEqual(image[i], problem.b[i], fmt::format("(A x)[{}]", i));
   return Json::object();
@@ -213,7 +208,7 @@ Json CheckInRange(const ExactProblem& problem, const Json& witness) {
 Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"value", "y"});
   const ExactVector y = ReadVector(witness["y"], "witness.y", problem.rows());
-  RequireProduct(problem, y);
+  RequireCheapSquare(problem, y);
   const ExactVector image = problem.A.transpose() * y;
   for (int j = 0; j < problem.rows(); ++j) RequireEqual(image[j], 0, fmt::format("(y'A)[{}]", j));
   const Rational product = y.dot(problem.b);

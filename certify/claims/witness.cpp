@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <vector>
 
 #include "corpus/exact_number.h"
@@ -180,6 +182,87 @@ Cost& Cost::AllRows(const ExactProblem& problem) {
   const std::int64_t friction = Bits(mu);
   for (int i = 0; i < problem.rows(); ++i) Add(Bits(RowOf(problem, i)) + friction);
   return *this;
+}
+
+namespace {
+
+// Rows that A couples: no entry lies in the rows of one group and the columns of another.
+std::vector<std::vector<int>> GroupsOf(const std::vector<std::vector<int>>& columns) {
+  const int n = static_cast<int>(columns.size());
+  std::vector<int> first(n);
+  std::iota(first.begin(), first.end(), 0);
+  const auto group = [&first](int i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+  };
+  for (int i = 0; i < n; ++i)
+    for (const int j : columns[i]) first[group(j)] = group(i);
+  std::map<int, std::vector<int>> groups;
+  for (int i = 0; i < n; ++i) groups[group(i)].push_back(i);
+  std::vector<std::vector<int>> listed;
+  for (auto& [_, rows] : groups) listed.push_back(std::move(rows));
+  return listed;
+}
+
+// What certificates.md says of a product, before it is made: added up over groups of rows.
+class ProductCost {
+ public:
+  explicit ProductCost(const ExactProblem& problem)
+      : problem_(problem), columns_(problem.rows()), rows_(problem.rows()) {
+    for (int i = 0; i < problem.rows(); ++i)
+      for (int j = 0; j < problem.rows(); ++j)
+        if (problem.A(i, j) != 0) columns_[i].push_back(j), rows_[j].push_back(i);
+  }
+
+  const std::vector<std::vector<int>>& columns() const { return columns_; }
+
+  void AddGroup(const std::vector<int>& group, const ExactVector& x, int times) {
+    Cost cost(static_cast<double>(group.size()));
+    std::int64_t longest = 0, entries = 0;
+    std::vector<Rational> part;
+    for (const int i : group) {
+      longest = std::max({longest, cost.Bits(Row(i)), cost.Bits(Column(i))});
+      entries += static_cast<std::int64_t>(columns_[i].size());
+      part.push_back(x[i]);
+    }
+    cost.AddBits(longest).Numbers(part, times);
+    const double bits = static_cast<double>(cost.bits());
+    work_ += static_cast<double>(group.size()) * bits * bits +
+             std::floor(static_cast<double>(entries) * static_cast<double>(longest) * bits / 8);
+    if (work_ <= kMostWork) return;
+    throw TooDear{{"certificate", fmt::format("a product of work {:.0f}", work_),
+                   fmt::format("at most {:.0f}", kMostWork)}};
+  }
+
+ private:
+  // Of A and b, without zeros.
+  std::vector<Rational> Row(int i) const {
+    std::vector<Rational> row = {problem_.b[i]};
+    for (const int j : columns_[i]) row.push_back(problem_.A(i, j));
+    return row;
+  }
+  std::vector<Rational> Column(int j) const {
+    std::vector<Rational> column;
+    for (const int i : rows_[j]) column.push_back(problem_.A(i, j));
+    return column;
+  }
+
+  const ExactProblem& problem_;
+  std::vector<std::vector<int>> columns_, rows_;  // of every row, and of every column, those of its entries
+  double work_ = 0;
+};
+
+}  // namespace
+
+void RequireCheapProduct(const ExactProblem& problem, const ExactVector& x) {
+  ProductCost cost(problem);
+  for (const auto& group : GroupsOf(cost.columns())) cost.AddGroup(group, x, 1);
+}
+
+void RequireCheapSquare(const ExactProblem& problem, const ExactVector& x) {
+  std::vector<int> all(problem.rows());
+  std::iota(all.begin(), all.end(), 0);
+  ProductCost(problem).AddGroup(all, x, 2);
 }
 
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {

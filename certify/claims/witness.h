@@ -59,15 +59,21 @@ class Cost {
   Cost& AllRows(const ExactProblem& problem);     // of A and b, each with the coefficients of friction
 
   // Of numbers over their common denominator; above most() they are not told exactly.
+  std::int64_t Bits(std::span<const Rational> numbers) const;
   std::int64_t BitsOf(const ExactVector& x) const;
   std::int64_t most() const { return most_; }
+  std::int64_t bits() const { return bits_; }
 
  private:
-  std::int64_t Bits(std::span<const Rational> numbers) const;
   void Add(std::int64_t bits);
 
   std::int64_t most_, bits_ = 0;
 };
+
+// TooDear unless A x and A'x are cheap, added up over the groups of rows that A couples: so many rows of long
+// numbers, and entries by which long ones are multiplied. Square: nor are x'Ax and x'b dear, of all rows.
+void RequireCheapProduct(const ExactProblem& problem, const ExactVector& x);
+void RequireCheapSquare(const ExactProblem& problem, const ExactVector& x);
 
 // An object with exactly these keys, in any order.
 void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys);

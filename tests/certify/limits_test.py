@@ -16,7 +16,7 @@ from math import isqrt
 from pathlib import Path
 
 sys.set_int_max_str_digits(0)
-MOST_DIGITS, MOST_ROWS = 10_000_000, 1000
+MOST_DIGITS, MOST_ROWS, MOST_CHARACTERS = 20_000_000, 3000, 40_000
 MOST_OPERATIONS, MOST_WORK = 2_000_000, 10**13
 SECONDS = 8  # of processor time, for a refusal before any work is done; the work would take minutes
 MEGABYTES = 400
@@ -48,11 +48,11 @@ def long_numbers(size=10):
 
 
 def many_contacts():
-    return certificate("symmetric", {"size": 2000, "entries": []})
+    return certificate("symmetric", {"size": 2 * MOST_ROWS, "entries": []})
 
 
 def many_digits():
-    return certificate("symmetric", {"size": 1000, "entries": [[i, j, "1e9999"] for i in range(1000) for j in range(2)]})
+    return certificate("symmetric", {"size": 1000, "entries": [[i, j, "1e9999"] for i in range(1000) for j in range(3)]})
 
 
 # --- At a limit: pairs of a true claim that is accepted, and one that is refused -------------------------------
@@ -64,9 +64,12 @@ def rows():
 
 def digits():
     """1e9999 has 10,000 digits, zeros have none."""
+    size, long = 50, MOST_DIGITS // 10000 - 1
     for rest in ("1e8999", "1e9000"):
-        entries = [[i, i, "1e9999"] for i in range(MOST_DIGITS // 10000 - 1)] + [[MOST_ROWS - 1, MOST_ROWS - 1, "1e999"]]
-        yield certificate("symmetric", {"size": MOST_ROWS, "entries": entries}, b=unit(MOST_ROWS, value=rest))
+        numbers = iter(["1e999"] + ["1e9999"] * long + ["0"] * size**2)
+        yield certificate("not-symmetric", [["0", *(next(numbers) for _ in range(size - 1))] if i == 0 else
+                                            [next(numbers) for _ in range(size)] for i in range(size)],
+                          b=unit(size, value=rest), i=0, j=1)
 
 
 def number_of(bits):
@@ -75,12 +78,43 @@ def number_of(bits):
 
 
 def products():
-    """x'Ax: the bits of the longest row, and twice those of x, which are 2."""
-    n = 150
-    most = isqrt(MOST_WORK // ((n**2 + 8 * n) // 8))
+    """x'Ax: the bits of the longest row, and twice those of x, which are 2; one entry of A."""
+    n = 1000
+    most = isqrt(MOST_WORK // n)
+    while n * most**2 + (most - 4) * most // 8 > MOST_WORK:
+        most -= 1
     for bits in (most - 4, most - 3):
         A = {"size": n, "entries": [[0, 0, "-" + number_of(bits)]]}
         yield certificate("not-psd", A, x=unit(n, value="-1"), value="-" + number_of(bits))
+
+
+def apart(n, bits):
+    """A x = b of rows that A does not couple: each counts alone, b as its row, x, and one entry of A."""
+    value = number_of(bits)
+    return certificate("in-range", diagonal(n), b=[value] * n, x=[value] * n)
+
+
+def groups():
+    n = 400
+    most = isqrt(MOST_WORK // n)
+    while n * (most**2 + most // 2 * most // 8) > MOST_WORK:
+        most -= 1
+    for bits in (most // 2, most // 2 + 1):
+        yield apart(n, bits)
+
+
+def denominators():
+    """Long together, short in each group: numbers over powers of different primes."""
+    primes = [p for p in range(3, 700) if all(p % q for q in range(2, p))][:100]
+    values = [f"1/{p**100}" for p in primes]
+    return certificate("in-range", diagonal(len(primes)), b=values, x=values)
+
+
+def long_digits():
+    """As many digits as may be, in numbers of as many as may be."""
+    value = "7" * MOST_CHARACTERS
+    count = MOST_DIGITS // MOST_CHARACTERS
+    return certificate("symmetric", {"size": count, "entries": [[i, i, value] for i in range(count)]})
 
 
 def eliminations():
@@ -166,6 +200,11 @@ def main(stiction, sources, *options):
             below, above = make()
             check(make.__name__, below, accepted=True)
             check(make.__name__, above, accepted=False)
+        check("denominators", denominators(), accepted=True)
+        if dearest:
+            check("long digits", long_digits(), accepted=True)
+            for name, value, accepted in zip(("groups", "groups above"), groups(), (True, False)):
+                check(name, value, accepted=accepted)
         below, above = steps()
         check("steps", below, accepted=True, says=" operations")
         check("steps", above, accepted=False)

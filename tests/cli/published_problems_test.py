@@ -6,6 +6,7 @@ They are no part of this project: STICTION_DATA names the folder that has them.
 
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -54,6 +55,30 @@ class PublishedProblems(cli.TestCase):
                 with self.subTest(file=name):
                     exact = variant["runs"][-1]
                     self.assertEqual((exact["arithmetic"], exact["certificate"]), ("exact", "solution-exists"))
+
+    def is_certified(self, name, contacts):
+        """Within the limits of both checkers, which refuse it once a force is altered."""
+        proof = self.folder / "proof.json"
+        self.succeeds("certify", pathlib.Path(os.environ["STICTION_DATA"]) / "friction" / f"{name}.dat", "-o", proof)
+        certificate = cli.json.loads(proof.read_text())
+        self.assertEqual(certificate["claim"], "solution-exists")
+        self.assertEqual(len(certificate["problem"]["contacts"]), contacts)
+        f = certificate["witness"]["f"]
+        loaded = next(i for i in reversed(range(len(f))) if f[i] != "0")
+        f[loaded] = f[loaded] + "1" if "/" not in f[loaded] else "1" + f[loaded].lstrip("-")
+        altered = self.file("altered.json", cli.json.dumps(certificate))
+        checker = [sys.executable, cli.ROOT / "certify/check_certificate.py"]
+        for file, code in ((proof, 0), (altered, 1)):
+            self.assertEqual(cli.run("check", file).code, code, file)
+            done = subprocess.run([*checker, file], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, code, done.stdout)
+
+    def test_many_contacts_are_certified(self):
+        self.is_certified("fc2d_granularflowonwall_00667_00000", 667)
+
+    @unittest.skipUnless(cli.ALL, "long")
+    def test_long_forces_are_certified(self):
+        self.is_certified("FrictionContactProblem00237", 376)
 
     @unittest.skipUnless(cli.ALL, "long")
     def test_large_planar_ones_are_solved_with_a_verified_residual(self):

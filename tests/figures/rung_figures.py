@@ -11,6 +11,10 @@ def certified(program):
     return "\n\n".join((*program.study("ratios"), prose("Medians")))
 
 
+def large_certificates(program):
+    return "\n\n".join((*program.study("large-certificates"), prose("Processor time, one thread")))
+
+
 def quartile(values):
     return f"{values[1]:.1f}" if values else ""
 

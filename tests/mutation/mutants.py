@@ -115,6 +115,7 @@ bug("ReadClaim", "certificate-version", '!certificate["version"].is_number_integ
     'certificate["version"] != 1', "version 1.0 is read")
 bug("RequireFewRows", "certificate-rows", "rows <= kMostRowsOfCertificate", "true", "any number of rows")
 bug("Add", "work-bits", "bits_ <= most_", "true", "operations on numbers of any length")
+bug("AddGroup", "work-of-products", "work_ <= kMostWork", "true", "products of any work")
 bug("RequireKeys", "unknown-keys",
     'if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", expected};', "",
     "unknown keys are passed over")

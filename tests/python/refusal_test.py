@@ -138,8 +138,8 @@ class Refused(unittest.TestCase):
         self.refuses(TypeError, "certificate: found 3, expected text", stiction.check, problem, 3)
         self.refuses(ValueError, "certificate: .*JSON", stiction.check, problem, "{")
         self.refuses(ValueError, "certificate", stiction.check, problem, "{}")
-        self.refuses(ValueError, "certificate: .*found 16777217 bytes, expected a certificate of at most 16777216",
-                     stiction.check, problem, " " * (2 ** 24 + 1))
+        self.refuses(ValueError, "certificate: .*found 33554433 bytes, expected a certificate of at most 33554432",
+                     stiction.check, problem, " " * (2 ** 25 + 1))
 
     def test_files(self):
         self.refuses(OSError, "nowhere", stiction.load, "/nowhere.json")

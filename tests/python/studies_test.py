@@ -149,6 +149,12 @@ class Studies(unittest.TestCase):
             self.assertGreater(float(row["rationals, times doubles"].replace(",", "")), 1)
         self.assertEqual([row["search of"] for row in searches], ["`conditioned`", "`near-degenerate`"])
 
+    def test_large_certificates(self):
+        rows, = tables("large_certificates", "--walls", 3, "--pushed", 3, "--pyramids", 3, "--stacks", 4, "--no-published")
+        self.assertEqual([row["problem"] for row in rows], ["wall of 3", "wall of 3, pushed", "pyramid of 3", "stack of 4"])
+        self.assertEqual({row["altered: refused"] for row in rows}, {"2 of 2"})
+        self.assertEqual(rows[0]["claim"], "`solution-exists`")
+
     def test_coulomb_exact(self):
         rows, = tables("coulomb_exact", "--contacts", 1, 4, "--problems", 40)
         self.assertEqual([row["contacts"] for row in rows], ["1", "4"])
