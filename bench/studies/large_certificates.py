@@ -3,8 +3,8 @@
 
 Bricks of 1 to 20 kg in walls (as many columns as courses), pyramids (of so many courses) and stacks, at rest or pushed
 sideways by six tenths of their weight, friction 1/2; and, where STICTION_DATA names the folder, planar problems that
-others published. Processor time and memory of `certify`, `check` and check_certificate.py, the size of the file, and how
-many of the two checkers refuse it once a number of its witness is altered."""
+others published. Processor time of `certify`, `check` and check_certificate.py, the size of the file, and how many of the
+two checkers refuse it once a number of its witness is altered."""
 
 import json
 import os
@@ -59,11 +59,11 @@ def problems(o, folder):
 
 
 def run(command, *words):
-    """Exit code, processor seconds, megabytes."""
+    """Exit code, processor seconds."""
     process = subprocess.Popen([*map(str, command), *map(str, words)], stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    return process.returncode, usage.ru_utime + usage.ru_stime
 
 
 def altered(certificate):
@@ -79,26 +79,25 @@ def altered(certificate):
 def rows(o, folder):
     proof, other = folder / "proof.json", folder / "altered.json"
     for name, problem in problems(o, folder):
-        code, *made = run([PROGRAM, "certify"], problem, "-o", proof)
+        code, made = run([PROGRAM, "certify"], problem, "-o", proof)
         if code != 0:
             raise ValueError(f"{name}: certify ends with exit {code}, expected 0")
         certificate, size = json.loads(proof.read_text()), proof.stat().st_size
-        checked = [run(checker, proof) for checker in CHECKERS]
-        if any(code != 0 for code, *_ in checked):
+        codes, checked = zip(*(run(checker, proof) for checker in CHECKERS))
+        if any(codes):
             raise ValueError(f"{name}: a checker refuses what certify wrote")
         contacts, claim = len(certificate["problem"]["contacts"]), certificate["claim"]
         other.write_text(json.dumps(altered(certificate)))
         refused = sum(run(checker, other)[0] == 1 for checker in CHECKERS)
-        yield (name, contacts, f"`{claim}`", size / 1024, *(cell for of in (made, *(one[1:] for one in checked)) for cell in of),
-               f"{refused} of 2")
+        yield name, contacts, f"`{claim}`", size / 1024, made, *checked, f"{refused} of 2"
 
 
 def main():
     o = study.options(__doc__, walls=[5, 8, 10, 12, 15], pushed=[5], pyramids=[14], stacks=[30, 100],
                       no_published=False)
     with tempfile.TemporaryDirectory(prefix="stiction-certificates-") as folder:
-        study.show(["problem", "contacts", "claim", "kB", "`certify`, s", "MB", "`check`, s", "MB",
-                    "`check_certificate.py`, s", "MB", "altered: refused"], rows(o, Path(folder)))
+        study.show(["problem", "contacts", "claim", "kB", "`certify`, s", "`check`, s", "`check_certificate.py`, s",
+                    "altered: refused"], rows(o, Path(folder)))
 
 
 study.run(main)
