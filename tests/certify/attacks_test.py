@@ -108,7 +108,7 @@ def of_problems(honest):
     many = 200000
     huge = edited(honest, "problem", "contacts", value=[{"kind": "frictionless"}] * many)
     yield f"{many} contacts", edited(huge, "problem", "A", value={"size": many, "entries": []})
-    many = 2001  # nothing else is wrong with it
+    many = 3001  # nothing else is wrong with it
     crowd = {**problem, "contacts": [{"kind": "frictionless"}] * many, "A": {"size": many, "entries": []}, "b": ["0"] * many}
     yield f"a true claim of {many} contacts", {**honest, "claim": "symmetric", "problem": crowd, "witness": {}}
 
