@@ -45,7 +45,7 @@ def seconds(generator, contacts, arithmetic, o):
 
 
 def main():
-    o = study.options(__doc__, contacts=[2, 4, 6, 8], problems=40, searched=2000, repeat=3, seed=1)
+    o = study.options(__doc__, contacts=[2, 4, 6, 8], problems=30, searched=1000, repeat=3, seed=1)
     study.show(["method", "contacts", "family", "problems", "doubles, microseconds", "certified, times doubles",
                 "rationals, times doubles", "needed rationals, 95 %"], certified(ladder(o)))
     rows = []
