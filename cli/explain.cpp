@@ -5,6 +5,7 @@
 
 #include "cli/command_line.h"
 #include "cli/narration/explained.h"
+#include "cli/program.h"
 #include "cli/shared.h"
 
 namespace stiction {
@@ -16,7 +17,7 @@ struct ExplainVerb : ExplainOptions {
 
 int RunExplain(const ExplainVerb& o) {
   const Json found = Explained(ReadAnySize(o.file), o);
-  std::cout << (o.json ? JsonText(found) + "\n" : ExplainedText(found));
+  std::cout << (o.json ? JsonText(found) + "\n" : AsTyped(ExplainedText(found)));
   return kExitDone;
 }
 

@@ -21,6 +21,7 @@
 #include "corpus/input_error.h"
 #include "corpus/output_error.h"
 #include "corpus/plain_text.h"
+#include "corpus/program_name.h"
 
 namespace stiction {
 namespace {
@@ -76,12 +77,27 @@ void Free(void* memory, std::size_t) { std::free(memory); }
 
 // What ended the program: in a terminal it fits, elsewhere it is one line.
 int Refuse(std::string_view why, int status) {
-  const std::string line = fmt::format("stiction: {}\n", why);
+  const std::string line = fmt::format("stiction: {}\n", AsTyped(std::string(why)));
   std::cerr << (isatty(STDERR_FILENO) ? Folded(line, TextWidth(STDERR_FILENO)) : line);
   return status;
 }
 
 }  // namespace
+
+std::string AsTyped(std::string text) {
+  const std::string name = ProgramName();
+  constexpr std::string_view kName = "stiction", kBefore = " \n'`(";
+  std::size_t at = text.find(kName);
+  while (at != text.npos) {
+    const std::size_t end = at + kName.size();
+    const bool begins = at == 0 || kBefore.find(text[at - 1]) != kBefore.npos;
+    const bool has_verb =
+        end + 1 < text.size() && text[end] == ' ' && 'a' <= text[end + 1] && text[end + 1] <= 'z';
+    if (begins && has_verb) text.replace(at, kName.size(), name);
+    at = text.find(kName, begins && has_verb ? at + name.size() : end);
+  }
+  return text;
+}
 
 int RunProgram(int argc, char** argv, int (*run)(int argc, char** argv)) {
   mp_set_memory_functions(Allocate, Reallocate, Free);

@@ -23,6 +23,7 @@
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
+#include "cli/program.h"
 #include "cli/shared.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
@@ -178,7 +179,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
                                                   : value.dump();
-    Tell("{:15}  {}\n", WithBlanks(key), text);
+    Tell("{:15}  {}\n", WithBlanks(key), AsTyped(text));
   }
 }
 

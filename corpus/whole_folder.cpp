@@ -164,7 +164,7 @@ void WholeFolder::LockAndEmpty() {
     if (StatusOf(building_).st_ino == 0) continue;  // another process was done with it
     if (!lock_.valid() || (!is_new && !IsLeft(building_))) {
       throw InputError(
-          fmt::format("{}: found what no stopped run of stiction left, expected nothing of this "
+          fmt::format("{}: found what no stopped run of this program left, expected nothing of this "
                       "name: move it away, or write another folder than {}",
                       building_.string(), target_.string()));
     }

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::array kKinds = {"bilateral", "frictionless", "static", "sliding"};
 
-// Numbers as bytes, the least ones first, and these as base64: a page of many frames is small.
-class PackedNumbers {
+// Numbers as bytes, the least ones first.
+class NumberBytes {
  public:
   void AddWord(double x) {
     const auto word =
@@ -32,21 +32,20 @@ class PackedNumbers {
   }
   void AddFloat(double x) { Add(std::bit_cast<std::uint32_t>(static_cast<float>(x)), 4); }
 
-  void Append(const PackedNumbers& other) {
-    bytes_.insert(bytes_.end(), other.bytes_.begin(), other.bytes_.end());
-  }
-  bool operator==(const PackedNumbers&) const = default;
+  void Append(const NumberBytes& other) { bytes_ += other.bytes_; }
+  bool operator==(const NumberBytes&) const = default;
 
-  std::string Text() const { return Base64(bytes_); }
+  const std::string& bytes() const { return bytes_; }
 
  private:
   void Add(std::uint32_t bits, int bytes) {
-    for (int k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(bits >> 8 * k));
+    for (int k = 0; k < bytes; ++k) bytes_.push_back(static_cast<char>(bits >> 8 * k));
   }
-  std::vector<std::uint8_t> bytes_;
+  std::string bytes_;
 };
 
 constexpr double kTenths = 10, kTurns = 1e4;  // of a pixel; of a cosine
+constexpr double kNoise = 1e-9;               // of the largest force of all frames: what is below is 0
 
 // A list beside the one of the frame before: runs of what stands there, too, at the same places, and of what is
 // new: `visit(first, same, end)`, of which [first, same) stands there.
@@ -76,18 +75,17 @@ std::vector<std::string> ElementsOf(const std::string& markup) {
 
 // Of bodies at rest a frame repeats what the one before has.
 struct FrameParts {
-  std::vector<PackedNumbers> forces;
+  std::vector<NumberBytes> forces;
   std::vector<std::string> placed;
 };
 
-std::string ForcesText(const FrameParts& before, const FrameParts& now) {
-  PackedNumbers packed;
+void AppendForces(NumberBytes& packed, const FrameParts& before, const FrameParts& now) {
+  packed.AddWord(static_cast<double>(now.forces.size()));
   ForEachRun(before.forces, now.forces, [&](std::size_t first, std::size_t same, std::size_t end) {
     packed.AddWord(static_cast<double>(same - first));
     packed.AddWord(static_cast<double>(end - same));
     for (std::size_t i = same; i < end; ++i) packed.Append(now.forces[i]);
   });
-  return packed.Text();
 }
 
 Json PlacedToJson(const FrameParts& before, const FrameParts& now) {
@@ -119,10 +117,12 @@ class Contacts {
   Json json_ = Json::array();
 };
 
-// A force as draw.h shows it, in tenths of a pixel before it is cut, and by rows. `at` is its place.
+// A force as draw.h shows it, in tenths of a pixel before it is cut, and by rows, those below `noise` as 0.
+// `at` is its place.
 template <class Kind>
-void AddForce(PackedNumbers& packed, const SceneIn<Kind, double>& scene, const Screen& screen,
-              const AppliedForceIn<Kind>& force, double newton, int contact, const std::array<double, 2>& at) {
+void AddForce(NumberBytes& packed, const SceneIn<Kind, double>& scene, const Screen& screen,
+              const AppliedForceIn<Kind>& force, double newton, double noise, int contact,
+              const std::array<double, 2>& at) {
   const double side = ShownSide(scene, force.bodies) == 0 ? 1 : -1;
   Vector2<double> along = kTenths * side * newton * screen.scale * Seen(force.force);
   along *= std::min(1.0, 32000 / std::max(1.0, along.norm()));  // far longer than what is shown
@@ -130,7 +130,7 @@ void AddForce(PackedNumbers& packed, const SceneIn<Kind, double>& scene, const S
   for (const double x : at) packed.AddWord(kTenths * x);
   packed.AddWord(along[0]);
   packed.AddWord(-along[1]);
-  for (const double f : force.rows) packed.AddFloat(f);
+  for (const double f : force.rows) packed.AddFloat(std::abs(f) < noise ? 0 : f);
 }
 
 // x and y in tenths of a pixel, cosine and sine in ten thousandths, of each body in the plane.
@@ -146,35 +146,65 @@ Json PosesOf(const Scene<double>& scene, const Screen& screen) {
 Json PosesOf(const SceneInSpace<double>&, const Screen&) { return Json::array(); }
 
 template <class Kind>
-Json FrameJson(const SceneIn<Kind, double>& moved, const Screen& screen, const FrameIn<Kind>& frame,
-               double newton, Contacts<Kind>& contacts, FrameParts& before) {
-  FrameParts now = {{}, ElementsOf(Placed(moved, screen).markup())};
-  std::set<std::array<double, 2>> places;
-  for (const auto& force : frame.marks.forces) {
-    if (force.from_joint) continue;
-    const Vector2<double> at = Seen(force.point);
-    const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
-    places.insert(place);
-    AddForce(now.forces.emplace_back(), moved, screen, force, newton, contacts.IndexOf(force), place);
+double LargestForce(const std::vector<FrameIn<Kind>>& frames) {
+  double largest = 0;
+  for (const auto& frame : frames) {
+    for (const auto& force : frame.marks.forces) {
+      for (const double f : force.rows) largest = std::max(largest, force.from_joint ? 0 : std::abs(f));
+    }
   }
-  Json points = Json::array();  // that bear no force
-  for (const auto& contact : frame.marks.contacts) {
-    const Vector2<double> at = Seen(contact);
-    const std::array<double, 2> place = InPicture(screen.X(at), screen.Y(at));
-    if (!places.contains(place)) points.push_back(place);
-  }
-  Json json = {{"time", frame.time},
-               {"poses", PosesOf(moved, screen)},
-               {"placed", PlacedToJson(before, now)},
-               {"points", std::move(points)},
-               {"forces", ForcesText(before, now)},
-               {"problems", frame.problems},
-               {"remark", frame.remark},
-               {"energy", NumbersToJson(frame.energy)},
-               {"drift", NumbersToJson(frame.drift)}};
-  before = std::move(now);
-  return json;
+  return largest;
 }
+
+// The frames of a run one after another: as JSON, and the bytes of their forces.
+template <class Kind>
+class FramesWriter {
+ public:
+  FramesWriter(const Screen& screen, double newton, double noise)
+      : screen_(screen), newton_(newton), noise_(noise) {}
+
+  Json Next(const SceneIn<Kind, double>& moved, const FrameIn<Kind>& frame) {
+    FrameParts now = {{}, ElementsOf(Placed(moved, screen_).markup())};
+    std::set<std::array<double, 2>> places;
+    for (const auto& force : frame.marks.forces) {
+      if (force.from_joint) continue;
+      const auto place = places.insert(PlaceOf(force.point)).first;
+      AddForce(now.forces.emplace_back(), moved, screen_, force, newton_, noise_, contacts_.IndexOf(force),
+               *place);
+    }
+    Json points = Json::array();  // that bear no force
+    for (const auto& contact : frame.marks.contacts) {
+      if (!places.contains(PlaceOf(contact))) points.push_back(PlaceOf(contact));
+    }
+    AppendForces(forces_, before_, now);
+    Json json = {{"time", frame.time},
+                 {"poses", PosesOf(moved, screen_)},
+                 {"placed", PlacedToJson(before_, now)},
+                 {"points", std::move(points)},
+                 {"problems", frame.problems},
+                 {"remark", frame.remark},
+                 {"energy", NumbersToJson(frame.energy)},
+                 {"drift", NumbersToJson(frame.drift)}};
+    before_ = std::move(now);
+    return json;
+  }
+
+  const Json& contacts() const { return contacts_.json(); }
+  const std::string& forces() const { return forces_.bytes(); }
+
+ private:
+  template <class Point>
+  std::array<double, 2> PlaceOf(const Point& point) const {
+    const Vector2<double> at = Seen(point);
+    return InPicture(screen_.X(at), screen_.Y(at));
+  }
+
+  const Screen& screen_;
+  double newton_, noise_;
+  Contacts<Kind> contacts_;
+  NumberBytes forces_;
+  FrameParts before_;
+};
 
 }  // namespace
 
@@ -183,15 +213,14 @@ std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
                           const std::vector<FrameIn<Kind>>& frames, double newton, double rate,
                           const std::vector<BodyMotion>& motions) {
   const Screen screen(view);
-  Contacts<Kind> contacts;
   Json names = Json::array(), bodies = Json::array(), shown = Json::array();
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) names.push_back(NameOfBody(scene, i));
   for (const Html& picture : BodyPictures(scene, screen)) bodies.push_back(picture.markup());
   SceneIn<Kind, double> moved = scene;
-  FrameParts before;
+  FramesWriter<Kind> writer(screen, newton, kNoise * LargestForce(frames));
   for (const auto& frame : frames) {
     SetPoses(moved, frame);
-    shown.push_back(FrameJson(moved, screen, frame, newton, contacts, before));
+    shown.push_back(writer.Next(moved, frame));
   }
   Json ends = Json::array();
   for (const BodyMotion& motion : motions)
@@ -203,9 +232,10 @@ std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
                      {"scale", screen.scale},
                      {"names", names},
                      {"bodies", bodies},
-                     {"contacts", contacts.json()},
+                     {"contacts", writer.contacts()},
                      {"motions", std::move(ends)},
-                     {"frames", std::move(shown)}};
+                     {"frames", Packed(JsonText(shown))},
+                     {"forces", Packed(writer.forces())}};
   const std::string page(std::begin(kAnimationTemplate), std::end(kAnimationTemplate));
   return FilledTemplate(page, {{"title", Text(scene.name)}, {"data", ScriptData(JsonText(data))}});
 }

@@ -161,13 +161,21 @@ Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::s
   return claims;
 }
 
+// The certificate that a claim gets; empty where it gets none.
+std::string CertificateFor(const Json& found, std::string_view claim) {
+  for (const Json& each : found.value("claims", Json::array())) {
+    if (each["claim"] == claim && each["certificate"].is_string()) return each["certificate"];
+  }
+  return "";
+}
+
 Json NextOf(const Json& found, const std::string& file) {
   Json next = Json::array();
   const auto add = [&](const std::string& verb, const std::string& options, const char* shows) {
     next.push_back(
         {{"command", fmt::format("stiction {} {}{}", verb, ShellWord(file), options)}, {"shows", shows}});
   };
-  add("solve", "", "the forces");
+  add("solve", "", CertificateFor(found, "existence") == "no-solution" ? "why there are none" : "the forces");
   if (found.contains("policies")) {
     const Json& loop = found["policies"]["loops"];
     const bool other = !loop.is_null() && loop["policy"] != "paper";
@@ -221,14 +229,6 @@ std::string NumberOf(std::int64_t count, const std::string& noun) {
 std::string BetweenText(const Json& ends) {
   const std::string least = ends[0], most = ends[1];
   return least == most ? least : fmt::format("{} to {}", least, most);
-}
-
-// The certificate that a claim gets; empty where it gets none.
-std::string CertificateFor(const Json& found, std::string_view claim) {
-  for (const Json& each : found.value("claims", Json::array())) {
-    if (each["claim"] == claim && each["certificate"].is_string()) return each["certificate"];
-  }
-  return "";
 }
 
 std::string ProblemText(const Json& found) {
@@ -287,10 +287,13 @@ std::string SurenessText(const Json& found) {
     std::vector<std::string> words;
     for (const Json& word : solutions["modes"])
       words.push_back(fmt::format("{}", fmt::join(word.get<std::vector<std::string>>(), " ")));
-    text += fmt::format("{} of the contact modes {}{}", words.size(),
-                        words.size() == 1 ? "has a solution" : "have solutions",
+    text += fmt::format("{} of contact modes {}{}",
+                        words.empty()       ? "No choice"
+                        : words.size() == 1 ? "One choice"
+                                            : fmt::format("{} choices", words.size()),
+                        words.size() > 1 ? "have solutions" : "has a solution",
                         solutions["complete"] == true ? "" : ", as far as they were looked at");
-    text += words.empty() ? ". " : fmt::format(", the first {}. ", words[0]);
+    text += words.empty() ? ". " : fmt::format("{}{}. ", words.size() == 1 ? ": " : ", the first ", words[0]);
     if (solutions["complete"] == true && !words.empty())
       text += solutions["unique"] == true ? "Its forces are the only ones. "
                                           : "There are other forces that meet all conditions. ";
@@ -304,7 +307,7 @@ std::string SurenessText(const Json& found) {
     text += "A is not safe: complete driving may turn back, where the published algorithm gives up. ";
   if (found.contains("safe_below"))
     text += found["safe_below"].is_null() ? "With one mu for all contacts it is safe, whatever mu is. "
-            : found["safe_below"] == "0"  ? "With one mu for all contacts it is safe for none. "
+            : found["safe_below"] == "0"  ? "With one mu for all contacts it is safe for no mu. "
                                           : fmt::format("With one mu for all contacts it is safe below {}. ",
                                                         found["safe_below"].get<std::string>());
   if (found.contains("radius"))
@@ -317,10 +320,10 @@ std::string SurenessText(const Json& found) {
 
 std::string MethodsText(const Json& found) {
   const Json& facts = found["survey"];
-  std::string text = "\nWhat the methods do\n" + Paragraph(fmt::format("Of the methods: {}.", RunsText(facts)));
+  std::string text = "\nWhat the methods do\n" + Paragraph(RunsText(facts));
   if (found.contains("policies")) text += Paragraph(PoliciesText(found["policies"]));
   if (facts.contains("symmetrized"))
-    text += Paragraph(fmt::format("With (A + A')/2 in place of A it {}. Of the methods: {}.",
+    text += Paragraph(fmt::format("With (A + A')/2 in place of A it {}. {}",
                                   AssumptionsMetText(facts["symmetrized"]), RunsText(facts["symmetrized"])));
   TextTable table({"method", "end"}, 2);
   for (const Json& run : found.value("methods", Json::array())) {
@@ -346,7 +349,7 @@ std::string CommandsText(const Json& found) {
     if (!any && name == CertificateFor(found, "existence")) continue;
     text += Paragraph(any                      ? name + ": whether there is a solution"
                       : name == claim["claim"] ? fmt::format("{}: {}", name, meaning)
-                                               : fmt::format("{}, since it is not so that {}", name, meaning)) +
+                                               : fmt::format("{}: it is false that {}", name, meaning)) +
             LineOfCommand(claim["command"]);
   }
   text += "\nWhat to type next\n";

@@ -378,7 +378,7 @@ std::string AssumptionsMetText(const Json& facts) {
 }
 
 std::string RunsText(const Json& facts) {
-  std::string existence = "no method that was tried solved it", published;
+  std::string existence = "No method that was tried solved it", published;
   bool found = false;
   for (const Json& run : facts["runs"]) {
     const std::string method = run["method"].get<std::string>(), outcome = run["outcome"].get<std::string>();
@@ -394,11 +394,11 @@ std::string RunsText(const Json& facts) {
     if (found || (outcome != "solved" && outcome != "no-solution")) continue;
     found = true;
     existence = outcome == "no-solution"
-                    ? "it has no solution, as a certificate says"
-                    : fmt::format("{} solves it {}, with an error of {}", method,
+                    ? "It has no solution, as a certificate says"
+                    : fmt::format("Method {} solves it {}, with an error of {}", method,
                                   exact ? "exactly" : "over doubles", ShortText(run["residual"].get<double>()));
   }
-  return existence + published;
+  return existence + published + ".";
 }
 
 }  // namespace stiction

@@ -29,7 +29,9 @@ namespace {
 
 constexpr const char* kWhatIsRead =
     "a problem or a scene in JSON, a Siconos .dat, an FCLIB .hdf5, or STORE:FINDING "
-    "(corpus/formats/problems.md has examples)";
+    "(corpus/formats/problems.md has examples). Matrices of numpy and MatrixMarket: stiction.Problem(A, b, mu) "
+    "in "
+    "Python, or the page paste.html of ./run site";
 
 // ---- Findings ----
 

@@ -90,7 +90,7 @@ SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> k
     if (auto problem = ParseOtherSiconos(text, source)) return *std::move(problem);
     const std::string other = OtherSiconosKind(text);
     if (!other.empty()) throw InputError(source, "line 1", other, kReadKinds);
-    throw InputError(source, "line 1", "neither of them",
+    throw InputError(source, "line 1", "numbers that are neither",
                      std::string(kReadKinds) + "; stiction import --format says what it should be");
   }
   try {

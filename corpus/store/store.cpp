@@ -115,7 +115,7 @@ void RequireOwnFiles(const fs::path& file) {
 void RequireDatabase(const fs::path& file) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   const auto refuse = [&file](const std::string& found) {
-    throw InputError(fmt::format("{}: is no stiction store but {}", file.string(), found));
+    throw InputError(fmt::format("{}: is no store of stiction but {}", file.string(), found));
   };
   RequireOwnFiles(file);
   if (fs::is_directory(file)) refuse("a directory");
@@ -138,7 +138,7 @@ void RefuseForeignDatabase(sqlite3* db, const fs::path& file) {
   Statement tables(db, "SELECT COUNT(*), COUNT(CASE WHEN name = 'campaign' THEN 1 END) FROM sqlite_master");
   tables.Step();
   if (tables.Integer(0) > 0 && tables.Integer(1) == 0) {
-    throw InputError(fmt::format("{}: is no stiction store but another database", file.string()));
+    throw InputError(fmt::format("{}: is no store of stiction but another database", file.string()));
   }
 }
 
@@ -162,7 +162,7 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   Execute("PRAGMA journal_mode = WAL");
   Execute("PRAGMA synchronous = NORMAL");
   const auto stored = ReadIdentity();
-  if (!stored) throw InputError(fmt::format("{}: is no stiction store", file.string()));
+  if (!stored) throw InputError(fmt::format("{}: is no store of stiction", file.string()));
   identity_ = *stored;
   if (*stored == identity) {
     RequireSound();
@@ -238,7 +238,7 @@ Store Store::Snapshot(sqlite3* db, const fs::path& file) {
   store.Execute("PRAGMA writable_schema = ON");  // reads a file that ends too early, too, as far as it goes
   store.Execute("BEGIN");
   const auto identity = store.ReadIdentity();
-  if (!identity) throw InputError(fmt::format("{}: is no stiction store", file.string()));
+  if (!identity) throw InputError(fmt::format("{}: is no store of stiction", file.string()));
   store.identity_ = *identity;
   return store;
 }

@@ -3,11 +3,15 @@
 
 #include <zlib.h>
 
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "solver/problem/check.h"
 
 namespace stiction {
+
+namespace {
 
 std::string Base64(const std::vector<std::uint8_t>& bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -21,10 +25,12 @@ std::string Base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-std::string Packed(const std::string& text) {
-  uLongf size = compressBound(text.size());
+}  // namespace
+
+std::string Packed(const std::string& plain) {
+  uLongf size = compressBound(plain.size());
   std::vector<std::uint8_t> bytes(size);
-  const int code = compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size(),
+  const int code = compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(plain.data()), plain.size(),
                              Z_DEFAULT_COMPRESSION);
   STICTION_CHECK(code == Z_OK, "zlib: found an error, expected room for what it deflates");
   bytes.resize(size);

@@ -102,10 +102,9 @@ std::string LoopsText(const StoreTotals& t) {
                         Grouped(t.finished_loops), Verb(t.whole_grid, "loops", "loop"));
   text += Paragraph(fmt::format("Found in {}; {}.", Counted(t.LoopGroups(), "group"), grid));
   if (t.loops.loops > 0) {
-    text +=
-        Paragraph(fmt::format("Steps of length zero: of {} {} none in the period, and {} nothing else there.",
-                              Counted(t.loops.loops, "loop"), Verb(t.loops.without_zero_steps, "has", "have"),
-                              Verb(t.loops.of_zero_steps_alone, "has", "have")));
+    text += Paragraph(fmt::format(
+        "Steps of length zero in the periods of {}: {} none, {} no others.", Counted(t.loops.loops, "loop"),
+        Verb(t.loops.without_zero_steps, "has", "have"), Verb(t.loops.of_zero_steps_alone, "has", "have")));
   }
   return text;
 }
@@ -146,13 +145,13 @@ std::string ExistenceText(const StoreTotals& t) {
                                           : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
                               Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
   }
-  text += Paragraph(fmt::format("Methods held against each other on {} (all contact modes tried of {}): {}.",
+  text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
                                 Counted(a.compared, "problem"), Grouped(a.enumerated),
                                 Counted(a.disagreements, "disagreement")));
   if (a.safety_decided > 0)
     text += Paragraph(
-        fmt::format("Safe, all reduced determinants being positive: {} of {}; {} gave up something "
-                    "under apex=suspended.",
+        fmt::format("{} of {} are safe (all reduced determinants are positive); under apex=suspended the "
+                    "published algorithm gave something up in {} of them.",
                     Grouped(a.safe), Counted(a.safety_decided, "audited problem"), Grouped(a.safe_gave_up)));
   return text;
 }
@@ -161,10 +160,12 @@ std::string DoublesText(const StoreTotals& t) {
   const Counts& c = t.counts;
   if (c.runs == 0) return "";
   return Paragraph(fmt::format(
-      "Of doubles, and not of the algorithm: in {} they differ from exact arithmetic ({} in a million), in {} "
-      "they call solved what is not ({} in a million). Of {} they were right in {}; of {}, {} misjudged.",
+      "Faults of doubles, not of the algorithm: in {} they differ from exact arithmetic ({} in a million), in "
+      "{} they call solved what is not ({} in a million). They were suspected in {}, and right in {} of them; "
+      "of "
+      "{}, {} misjudged.",
       Counted(c.doubles_differ, "run"), RateText(c.doubles_differ, c.runs), Counted(c.wrong, "run"),
-      RateText(c.wrong, c.runs), Counted(c.suspicious, "suspicion"), Grouped(c.confirmed),
+      RateText(c.wrong, c.runs), Counted(c.suspicious, "run"), Grouped(c.confirmed),
       Counted(c.audited, "audited run"), Verb(c.misjudged, "was", "were")));
 }
 
@@ -173,15 +174,15 @@ std::string WorthText(const StoreTotals& t) {
   const Counts& c = t.counts;
   if (c.runs == 0) return "";
   const std::string misjudged =
-      c.audited == 0 ? "" : fmt::format(", of these {} misjudged", ShareText(c.misjudged, c.audited));
+      c.audited == 0 ? "" : fmt::format("; {} of them were misjudged", ShareText(c.misjudged, c.audited));
   std::string text = "In brackets: exact intervals at 95 %. ";
   if (c.audited + c.suspicious == c.runs) {
     text += fmt::format("Every run was repeated exactly{}.", misjudged);
   } else {
     text += fmt::format(
-        "Rates are lower bounds: loops that doubles take for solutions are not counted. Of {} without "
-        "a suspicion {} were audited{}.",
-        Counted(c.runs - c.suspicious, "run"), Grouped(c.audited), misjudged);
+        "Rates are lower bounds: loops that doubles take for solutions are not counted. {} of {} without a "
+        "suspicion were audited{}.",
+        Grouped(c.audited), Counted(c.runs - c.suspicious, "run"), misjudged);
   }
   return Paragraph(text);
 }
@@ -362,7 +363,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
   return HeadLine(t, store, file) + GraveLines(t) + RemarkLines(store.identity()) + Findings(t) +
          FinishText(t, file) + Paragraph(TimeText(t.work.time)) + SimplestText(t) +
          Paragraph(
-             "More, as text, and all, as a page with files to replay and check; the same search again goes on:",
+             "More as text; all as a page, with files to replay and to check. The same search again goes on:",
              0) +
          Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
          Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));

@@ -5,6 +5,7 @@ import base64
 import hashlib
 import json
 import os
+import re
 import shutil
 import sqlite3
 import struct
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -84,12 +86,19 @@ def unwrapped(text):
     return " ".join(text.split())
 
 
-def forces(data, frame):
-    """The forces of a frame of an animation (reports/web/data.md): {bodies, kind, mu, f}."""
-    found = []
-    for one in data["frames"]:
-        packed, at, before, found = base64.b64decode(one["forces"]), 0, found, []
-        while at < len(packed):
+def unpacked(text):
+    """What pages pack (reports/html/packed.h), as bytes."""
+    return zlib.decompress(base64.b64decode(text))
+
+
+def animation(page):
+    """The data of an animation (reports/web/data.md), `frames` unpacked: with the `forces` of each, {bodies, kind, mu, f}."""
+    data = json.loads(re.search(r'id="data">(.*?)</script>', page.read_text(), re.S)[1])
+    data["frames"] = json.loads(unpacked(data["frames"]))
+    packed, at, before = unpacked(data.pop("forces")), 0, []
+    for frame in data["frames"]:
+        (count,), found, at = struct.unpack_from("<h", packed, at), [], at + 2
+        while len(found) < count:
             same, new = struct.unpack_from("<hh", packed, at)
             at += 4
             found += before[len(found):len(found) + same]
@@ -97,9 +106,8 @@ def forces(data, frame):
                 contact = data["contacts"][struct.unpack_from("<h", packed, at)[0]]
                 found.append({**contact, "f": struct.unpack_from(f"<{contact['rows']}f", packed, at + 10)})
                 at += 10 + 4 * contact["rows"]
-        if one is frame:
-            break
-    return found
+        frame["forces"] = before = found
+    return data
 
 
 def content(store):

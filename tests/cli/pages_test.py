@@ -110,11 +110,9 @@ class Pages(cli.TestCase):
         shown = self.shown(names)
         self.assertEqual(sorted(shown), sorted(names))
         for name, page in shown.items():
-            text = (self.site / name).read_text()
-            data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])
-            frames = data["frames"]
+            frames = cli.animation(self.site / name)["frames"]
             self.assertEqual([frame["rows"] for frame in page["frames"]],
-                             [len(cli.forces(data, frame)) for frame in frames], name)
+                             [len(frame["forces"]) for frame in frames], name)
             for number, frame in enumerate(page["frames"]):
                 self.assertEqual(frame["wrong"], "", f"{name}, frame {number}")
                 self.assertGreater(frame["shapes"], 0, f"{name}, frame {number}: nothing was drawn")

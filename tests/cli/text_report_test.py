@@ -71,10 +71,14 @@ class TextReport(cli.TestCase):
 
     def test_commands_begin_as_the_program_was_called(self):
         called = dict(os.environ, STICTION_PROGRAM="../run")
-        for words in (("report", self.high, "--text"), ("status", self.high), ("status", self.best)):
-            said = subprocess.run([cli.program, *words], env=called, capture_output=True, text=True).stdout
-            self.assertIn("../run report ", said)
-            self.assertEqual(said.replace("../run ", "stiction "), self.succeeds(*words).out)
+        lopsided = self.file("lopsided.json", {"A": [[1, 0], [1, 1]], "b": [-1, 0], "mu": 1})
+        for verb, words in (("report", ("report", self.high, "--text")), ("report", ("status", self.high)),
+                            ("report", ("status", self.best)), ("certify", ("explain", lopsided)),
+                            ("certify", ("solve", lopsided)), ("help", ("solve",)), ("search", ("status", "none.store"))):
+            said = subprocess.run([cli.program, *words], env=called, capture_output=True, text=True)
+            self.assertIn(f"../run {verb} ", said.stdout + said.stderr)
+            plain = cli.run(*words)
+            self.assertEqual((said.stdout + said.stderr).replace("../run ", "stiction "), plain.out + plain.err)
 
     def test_a_difference_that_is_more_than_noise_exits_with_1(self):
         out = self.folder / "comparison"

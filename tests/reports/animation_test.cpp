@@ -39,6 +39,31 @@ AppliedForceIn<Plane> ForceOf(int on, int from) {
   return force;
 }
 
+// The data of a page, its frames and forces unpacked.
+Json DataOf(const std::string& page) {
+  const std::string begin = "id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  Json data = ParseJson(page.substr(from, page.find("</script>", from) - from), "data");
+  data["frames"] = ParseJson(Unpacked(data["frames"].get<std::string>()), "frames");
+  return data;
+}
+
+std::vector<std::uint8_t> ForceBytesOf(const Json& data) {
+  const std::string bytes = Unpacked(data["forces"].get<std::string>());
+  return {bytes.begin(), bytes.end()};
+}
+
+std::array<float, 2> RowsAt(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+  std::array<float, 2> rows = {};
+  std::memcpy(rows.data(), &bytes.at(at), sizeof rows);
+  return rows;
+}
+
+constexpr std::size_t kHead =
+    6;  // of a frame: its forces, how many stand in the frame before, and how many not
+constexpr std::size_t kBytes = 18;  // of a force in the plane
+constexpr std::size_t kRows = 10;   // where its rows begin
+
 TEST_CASE(
     "animation: a force acts on the body that moves, has its rows and its friction, and those of joints are "
     "left out") {
@@ -49,16 +74,11 @@ TEST_CASE(
   marks.forces = {ForceOf(1, 0), ForceOf(0, 1), ForceOf(1, 0)};
   marks.forces[2].from_joint = true;
   const double pixels = Screen(view).scale / 10;  // of a newton
-  const std::string page = AnimationPage<Plane>(scene, view, {RecordFrame(scene, 0, marks)}, 0.1, 30);
-  const std::string begin = "id=\"data\">";
-  const std::size_t from = page.find(begin) + begin.size();
-  const Json data = ParseJson(page.substr(from, page.find("</script>", from) - from), "data");
+  const Json data = DataOf(AnimationPage<Plane>(scene, view, {RecordFrame(scene, 0, marks)}, 0.1, 30));
   CHECK(data["names"] == Json({"body 1", "disc"}));
   REQUIRE(data["contacts"].size() == 2);
   CHECK(data["contacts"][0] == Json({{"bodies", {1, 0}}, {"kind", "static"}, {"rows", 2}, {"mu", 0.5}}));
-  const std::vector<std::uint8_t> bytes = FromBase64(data["frames"][0]["forces"].get<std::string>());
-  constexpr std::size_t kBytes = 18;  // of a force in the plane
-  constexpr std::size_t kHead = 4;    // how many stand in the frame before, and how many not
+  const std::vector<std::uint8_t> bytes = ForceBytesOf(data);
   REQUIRE(bytes.size() == kHead + 2 * kBytes);
   const auto word = [&bytes](std::size_t at) {
     return static_cast<std::int16_t>(bytes[at] | bytes[at + 1] << 8);
@@ -70,9 +90,7 @@ TEST_CASE(
     CHECK(word(begin_of) == side);
     CHECK(word(begin_of + 6) / 10.0 == Approx(sign * pixels).margin(0.06));
     CHECK(word(begin_of + 8) / 10.0 == Approx(-3 * sign * pixels).margin(0.06));
-    std::array<float, 2> rows = {};
-    std::memcpy(rows.data(), &bytes[begin_of + 10], sizeof rows);
-    CHECK(rows == std::array<float, 2>{3, -1});
+    CHECK(RowsAt(bytes, begin_of + kRows) == std::array<float, 2>{3, -1});
   }
 }
 
@@ -83,19 +101,27 @@ TEST_CASE("animation: a frame says of what stands in the one before how much of 
   MarksIn<Plane> two, one;
   two.forces = {ForceOf(1, 0), ForceOf(0, 1)};
   one.forces = {two.forces[0], two.forces[0]};
-  const std::string page = AnimationPage<Plane>(
+  const std::vector<std::uint8_t> bytes = ForceBytesOf(DataOf(AnimationPage<Plane>(
       scene, view, {RecordFrame(scene, 0, two), RecordFrame(scene, 0.1, two), RecordFrame(scene, 0.2, one)},
-      0.1, 30);
-  const std::string begin = "id=\"data\">";
-  const std::size_t from = page.find(begin) + begin.size();
-  const Json data = ParseJson(page.substr(from, page.find("</script>", from) - from), "data");
-  const auto bytes = [&data](int frame) {
-    return FromBase64(data["frames"][frame]["forces"].get<std::string>());
-  };
-  CHECK(bytes(1) == std::vector<std::uint8_t>{2, 0, 0, 0});
-  const std::vector<std::uint8_t> last = bytes(2);
-  REQUIRE(last.size() == 4 + 18);
-  CHECK(std::vector(last.begin(), last.begin() + 4) == std::vector<std::uint8_t>{1, 0, 1, 0});
+      0.1, 30)));
+  REQUIRE(bytes.size() == 3 * kHead + 3 * kBytes);
+  const auto head = [&bytes](std::size_t at) { return std::vector(&bytes[at], &bytes[at] + kHead); };
+  CHECK(head(0) == std::vector<std::uint8_t>{2, 0, 0, 0, 2, 0});
+  CHECK(head(kHead + 2 * kBytes) == std::vector<std::uint8_t>{2, 0, 2, 0, 0, 0});
+  CHECK(head(2 * kHead + 2 * kBytes) == std::vector<std::uint8_t>{2, 0, 1, 0, 1, 0});
+}
+
+TEST_CASE("animation: what is less than a billionth of the largest force of all frames is 0") {
+  const Scene<double> scene = DiscOnFloor();
+  View view;
+  view.Include(scene);
+  MarksIn<Plane> strong, weak;
+  strong.forces = {ForceOf(1, 0)};
+  weak.forces = {ForceOf(1, 0)};
+  weak.forces[0].rows = {2e-9, 4e-9};  // of 3
+  const std::vector<std::uint8_t> bytes = ForceBytesOf(DataOf(AnimationPage<Plane>(
+      scene, view, {RecordFrame(scene, 0, weak), RecordFrame(scene, 0.1, strong)}, 0.1, 30)));
+  CHECK(RowsAt(bytes, kHead + kRows) == std::array<float, 2>{0, 4e-9F});
 }
 
 }  // namespace

@@ -104,18 +104,20 @@ TEST_CASE("text: every number is a sum over the units") {
     CHECK_THAT(
         text,
         Contains("Found in 2 groups; of 1 finished, 0 loop under every policy that stiction distinguishes"));
-    CHECK_THAT(text, Contains("of 92 loops 6 have none in the period, and 4 have nothing else there"));
+    CHECK_THAT(text, Contains("in the periods of 92 loops: 6 have none, 4 have no others."));
     CHECK_THAT(text, Contains("loop for ever cycle 4 " + RateText(4, 120)));
     CHECK_THAT(text, Contains("a step without limit ray 2 " + RateText(2, 120)));
     CHECK_THAT(text, Contains("FAILED on 2: of 26 problems given to complete driving 24 solved"));
-    CHECK_THAT(text, Contains("on 34 problems (all contact modes tried of 38): 46 disagreements"));
-    CHECK_THAT(text, Contains("62 of 58 audited problems; 74 gave up something"));
+    CHECK_THAT(text, Contains("on 34 problems, on 38 of them all contact modes, too: 46 disagreements"));
+    CHECK_THAT(text, Contains("62 of 58 audited problems are safe"));
     CHECK_THAT(text, Contains("Groups of findings: 2 of cycle, 1 of ray."));
     CHECK_THAT(text, Contains("in 2 runs they differ from exact arithmetic (" + RateText(2, 120)));
     CHECK_THAT(text, Contains("in 22 runs they call solved what is not (" + RateText(22, 120)));
-    CHECK_THAT(text, Contains("Of 8 suspicions they were right in 6; of 14 audited runs, 10 were misjudged."));
-    CHECK_THAT(text,
-               Contains("Of 112 runs without a suspicion 14 were audited, of these " + ShareText(10, 14)));
+    CHECK_THAT(
+        text,
+        Contains(
+            "They were suspected in 8 runs, and right in 6 of them; of 14 audited runs, 10 were misjudged."));
+    CHECK_THAT(text, Contains("14 of 112 runs without a suspicion were audited; " + ShareText(10, 14)));
     CHECK_THAT(text, Contains("2 certified and minimized, 1 to go"));
     CHECK_THAT(text, Contains("stiction search --store the.store --finish"));
   }

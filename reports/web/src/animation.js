@@ -10,13 +10,7 @@ import {button, copyLink, icons} from './player.js';
 const kNumbered = 12;   // contacts of a frame that have a number each; of more only the one that is chosen
 const kLongest = 0.25;  // arrow, of the picture's height
 
-const kNoise = 1e-9;    // of the largest force of the scene: what is below is shown as 0
-
 const data = JSON.parse(byId('data').textContent), frames = framesOf(data), last = frames.length - 1;
-const largest = Math.max(0, ...frames.flatMap(({forces}) => forces.flatMap(({f}) => f.map(Math.abs))));
-for (const {forces} of frames) {
-  for (const force of forces) force.f = force.f.map(x => Math.abs(x) < kNoise * largest ? 0 : x);
-}
 
 const shown = {
   frame: 0,

@@ -1,26 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frames of an animation, as the program packs them (../data.md).
+import {unpacked, unpackedBytes} from './packed.js';
 
 const kTenths = 10, kTurns = 1e4;  // of a pixel; of a cosine
 const kDigits = 7;                 // that a packed number has
 
-// `before`: those of the frame before, some of which stand here, too.
-function forcesOf(text, contacts, before) {
-  const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0)), view = new DataView(bytes.buffer);
-  const forces = [];
-  let at = 0;
-  const word = () => view.getInt16((at += 2) - 2, true);
-  const number = () => Number(view.getFloat32((at += 4) - 4, true).toPrecision(kDigits));
-  const force = () => {
-    const {rows, ...contact} = contacts[word()], [x, y, dx, dy] = [word(), word(), word(), word()].map(z => z / kTenths);
-    return {...contact, at: [x, y], along: [dx, dy], f: Array.from({length: rows}, number)};
-  };
-  while (at < bytes.length) {
-    const same = word(), others = word();
-    forces.push(...before.slice(forces.length, forces.length + same));
-    forces.push(...Array.from({length: others}, force));
+// Of each frame the forces that bear on contacts.
+class ForceReader {
+  constructor(bytes, contacts) {
+    Object.assign(this, {view: new DataView(bytes.buffer, bytes.byteOffset), at: 0, contacts, before: []});
   }
-  return forces;
+
+  word() {
+    return this.view.getInt16((this.at += 2) - 2, true);
+  }
+  number() {
+    return Number(this.view.getFloat32((this.at += 4) - 4, true).toPrecision(kDigits));
+  }
+  force() {
+    const {rows, ...contact} = this.contacts[this.word()];
+    const [x, y, dx, dy] = Array.from({length: 4}, () => this.word() / kTenths);
+    return {...contact, at: [x, y], along: [dx, dy], f: Array.from({length: rows}, () => this.number())};
+  }
+
+  // Some stand in the frame before, too.
+  next() {
+    const forces = [], count = this.word();
+    while (forces.length < count) {
+      const same = this.word(), others = this.word();
+      forces.push(...this.before.slice(forces.length, forces.length + same));
+      forces.push(...Array.from({length: others}, () => this.force()));
+    }
+    return this.before = forces;
+  }
 }
 
 // Elements of a picture: a number stands for so many of the frame before.
@@ -43,10 +55,11 @@ function transformsOf(poses, scale) {
 }
 
 // Frames with `transforms`, and `forces` as {bodies, kind, mu, at, along, f}, where the bodies touch, too.
-export function framesOf({frames, contacts, scale}) {
-  let forces = [], elements = [];
-  return frames.map(({poses, ...frame}) => {
-    forces = forcesOf(frame.forces, contacts, forces);
+export function framesOf({frames, forces: packed, contacts, scale}) {
+  const reader = new ForceReader(unpackedBytes(packed), contacts);
+  let elements = [];
+  return JSON.parse(unpacked(frames)).map(({poses, ...frame}) => {
+    const forces = reader.next();
     elements = elementsOf(frame.placed, elements);
     return {
       ...frame,
