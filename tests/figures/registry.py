@@ -95,6 +95,8 @@ MEASUREMENTS = [
                 "Frames a second of the scenes of the corpus, on one thread and on two."),
     Measurement("tolerance", "minutes", scene.tolerance,
                 "How many scenes like `weight-on-two-pegs` still loop when every dimension is off."),
+    Measurement("page-times", "minutes", search.page_times,
+                "How fast the pages of a report open in Chromium, with few findings and with ten thousand."),
     Measurement("dearest", "minutes", corpus.dearest,
                 "What the dearest certificates cost that the checkers take, each just below one limit (`dense N`: a "
                 "matrix of N rows with all the bits that it may have)."),

@@ -10,6 +10,7 @@ import math
 import os
 import re
 import sqlite3
+import statistics
 import tempfile
 
 import intervals
@@ -303,6 +304,14 @@ def night(program):
 def night_row(minutes, sample):
     return (minutes, three(sample["problems"] / 1e6), count(round(sample["groups"])),
             *(three(sample[key] / 1e6) for key in ("resident", "most", "store")))
+
+
+def page_times(program):
+    """How fast the pages of a report open in Chromium."""
+    measured = json.loads(program.script("tests/setup/page_times.py", "--json"))
+    rows = [(f"`{one['page']}`", count(one["findings"]), three(one["bytes"] / 1e3),
+             round(statistics.median(one["milliseconds"])), round(max(one["milliseconds"]))) for one in measured]
+    return table(["page", "findings", "kB", "median, ms", "most, ms"], rows)
 
 
 # ---- Many machines -------------------------------------------------------------------------------------------

@@ -90,10 +90,12 @@ function stepsPlot(rows, {width, most, floor}) {
   const total = p.sum(rows, row => row.runs), last = rows.at(-1), contacts = p.contactsOf(rows[0].contacts);
   const stepsOf = row => `${row.steps}${row.or_more === 'yes' ? ' or more' : ''}`;
   const title = row => `${stepsOf(row)} steps: ${p.count(row.runs)} runs, ${p.share(row.runs / total)}`;
-  const thick = Math.max(1.4, (width - 60) / (most + 2) - 1);
+  const left = 72;  // room for 0.00001 %
+  const thick = Math.max(1.4, (width - left - 6) / (most + 2) - 1);
   const svg = p.drawn(
       {
         ...histogram,
+        marginLeft: left,
         width,
         x: {domain: [-0.5, most + 1], label: 'steps'},
         y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},

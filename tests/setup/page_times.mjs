@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long pages take to open in a browser: node page_times.mjs REPEATS FILE.html... prints JSON, of each file the
+// milliseconds to the end of its load event, once for each repetition. The browser is chromium or that of BROWSER.
+import {execFileSync} from 'node:child_process';
+import {createRequire} from 'node:module';
+import {dirname, join, resolve} from 'node:path';
+import {fileURLToPath, pathToFileURL} from 'node:url';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const {chromium} = createRequire(join(root, 'reports/web/package.json'))('playwright-core');
+const [repeats, ...files] = process.argv.slice(2);
+const browserPath = process.env.BROWSER ?? execFileSync('which', ['chromium'], {encoding: 'utf8'}).trim();
+
+const browser = await chromium.launch({executablePath: browserPath, args: ['--no-sandbox']});
+const times = Object.fromEntries(files.map(file => [file, []]));
+for (let k = 0; k < Number(repeats); ++k) {
+  for (const file of files) {  // by turns
+    const page = await browser.newPage({viewport: {width: 1400, height: 900}});
+    await page.goto(pathToFileURL(resolve(file)).href);
+    times[file].push(await page.evaluate(() => performance.getEntriesByType('navigation')[0].loadEventEnd));
+    await page.close();
+  }
+}
+await browser.close();
+console.log(JSON.stringify(times));
