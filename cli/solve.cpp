@@ -179,7 +179,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
                                                   : value.dump();
-    Tell("{:15}  {}\n", WithBlanks(key), AsTyped(text));
+    Tell("{:18}  {}\n", WithBlanks(key), AsTyped(text));
   }
 }
 

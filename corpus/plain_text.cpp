@@ -92,7 +92,7 @@ namespace {
 // Where a line that is folded goes on.
 std::size_t HangingIndent(std::string_view line, std::size_t width) {
   const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
-  for (std::size_t at = std::min(width / 2, line.size() - 1); at > begin + 2; --at) {
+  for (std::size_t at = std::min(2 * width / 3, line.size() - 1); at > begin + 2; --at) {
     if (line[at] != ' ' && line[at - 1] == ' ' && line[at - 2] == ' ') return at;
   }
   return begin + 2;

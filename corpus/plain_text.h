@@ -38,7 +38,7 @@ class FixedTextWidth {
 std::string Paragraph(std::string_view text, std::size_t indent = 2);
 
 // Lines as they are, but for those that are wider than `width`: these go on below, where their last column
-// begins (behind two blanks) if that is in their left half.
+// begins (behind two blanks) if that is in their left two thirds.
 std::string Folded(std::string_view lines, std::size_t width = TextWidth());
 
 // A title and the line below it.

@@ -20,6 +20,7 @@
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/all_policies.h"
+#include "cli/narration/outcome_text.h"
 #include "cli/narration/over_intervals.h"
 #include "cli/narration/surveyed.h"
 #include "corpus/plain_text.h"
@@ -227,8 +228,10 @@ std::string NumberOf(std::int64_t count, const std::string& noun) {
 }
 
 std::string BetweenText(const Json& ends) {
-  const std::string least = ends[0], most = ends[1];
-  return least == most ? least : fmt::format("{} to {}", least, most);
+  const auto text = [](const Json& end) {
+    return Text(*ParseRational(end.get<std::string>()), FractionText::kShort);
+  };
+  return ends[0] == ends[1] ? text(ends[0]) : fmt::format("{} to {}", text(ends[0]), text(ends[1]));
 }
 
 std::string ProblemText(const Json& found) {

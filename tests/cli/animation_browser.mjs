@@ -163,7 +163,7 @@ test('energy, drift and creep stand under the scene', async () => {
     const [scene, charts] = await page.$$eval(
         '#picture svg, #charts', all => all.map(node => node.getBoundingClientRect().toJSON()));
     assert.ok(charts.top >= scene.bottom && charts.left < scene.right);
-    assert.match(await page.textContent('#creep'), /^At the end of the run, of the bodies: \d+ (rests?|creeps?|slides?|fl(y|ies)|moves?)/);
+    assert.match(await page.textContent('#creep'), /^Bodies at the end of the run: \d+ (rests?|creeps?|slides?|fl(y|ies)|moves?)/);
   });
 });
 

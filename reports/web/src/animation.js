@@ -161,7 +161,7 @@ function tellCreep(motions) {
   const words = Object.keys(plurals).filter(word => many(word) > 0);
   const told = words.map(word => `${many(word)} ${many(word) === 1 ? word : plurals[word]}`);
   return [
-    element('p', {class: 'note'}, `At the end of the run, of the bodies: ${told.join(', ')}.`),
+    element('p', {class: 'note'}, `Bodies at the end of the run: ${told.join(', ')}.`),
     rows.length === 0 ?
         null :
         element(
