@@ -4,7 +4,7 @@
 
     page_times.py PROGRAM [--repeats N] [--json]
 
-A page has opened when its load event has ended. Wants reports/web/node_modules (npm ci there) and chromium."""
+A page has opened when its load event has ended; the processor time is that of its thread, whatever else runs. Wants reports/web/node_modules (npm ci there) and chromium."""
 
 import argparse
 import json
@@ -27,7 +27,8 @@ def run(*command):
 
 
 def measure(program, folder, repeats):
-    """Of each page: how many findings, its size, and the milliseconds of every time that it was opened."""
+    """Of each page: how many findings, its size, and of every time that it was opened the milliseconds, and those of the
+    processor."""
     few, many = folder / "few.store", folder / "many.store"
     run(program, "search", *CAMPAIGN, "--problems", 40000, "--store", few, "--finishing", 100)
     shutil.copy(few, many)
@@ -39,7 +40,8 @@ def measure(program, folder, repeats):
         lines = (out / "findings.csv").read_text().splitlines()
         files.update({out / page: len(lines) - 1 for page in PAGES})
     times = json.loads(run("node", ROOT / "tests/setup/page_times.mjs", repeats, *files))
-    return [{"page": file.name, "findings": findings, "bytes": file.stat().st_size, "milliseconds": times[str(file)]}
+    return [{"page": file.name, "findings": findings, "bytes": file.stat().st_size, "milliseconds": [opened for opened, _ in times[str(file)]],
+             "processor": [processor for _, processor in times[str(file)]]}
             for file, findings in files.items()]
 
 
@@ -56,7 +58,7 @@ def main():
         return
     for one in found:
         print(f"{one['page']:14} {one['findings']:6,} findings {one['bytes'] / 1e3:6.0f} kB, opened in "
-              f"{statistics.median(one['milliseconds']):.0f} ms, at most {max(one['milliseconds']):.0f}")
+              f"{statistics.median(one['milliseconds']):.0f} ms; of the processor {statistics.median(one['processor']):.0f}")
 
 
 if __name__ == "__main__":
