@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame of a program: how what is thrown ends, in one line and with the exit code that it has, and how commands in
-// its texts are called.
+// The frame of a program: how what is thrown ends, in one line and with the exit code that it has, and how
+// commands in its texts are called.
 
 #ifndef STICTION_CLI_PROGRAM_H_
 #define STICTION_CLI_PROGRAM_H_
