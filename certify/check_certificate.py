@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True  # where it is installed, nothing is to be left b
 from certificate_reader import (Cost, brief, dot, elimination_operations, exact, fields, integer, items, long_times, main,
                                 need, one_of, planar_contacts, product_operations, reduced_operations,
                                 require_cheap_product, rows, times, vector)
-from check_runs import CYCLE, check_runs
+from check_runs import CYCLE, RAY, check_runs
 
 # --- A and b: each check returns the facts to print ---------------------------------
 
@@ -708,6 +708,7 @@ CLAIMS = {  # the keys of the witness, and what checks it
     "safe-by-condition": ("scaling least most", check_safe_by_condition),
     "unsafe": ("word determinant", check_unsafe),
     "cycle": CYCLE,
+    "ray": RAY,
     "counterexample": ("L D f a runs", check_counterexample),
 }
 

@@ -446,6 +446,12 @@ def check_cycle(problem, witness):
     return check_runs_in_space.check_loop(problem, witness, policy)
 
 
+def check_ray(problem, witness):
+    """In space: a run that comes to a step which nothing limits."""
+    policy = read_policy(witness["policy"], "$.witness.policy", check_runs_in_space.SWITCHES)
+    return check_runs_in_space.check_ray(problem, witness, policy)
+
+
 def check_runs_alone(problem, witness):
     return f"its runs only, {check_runs(problem, witness)}"
 
@@ -453,8 +459,9 @@ def check_runs_alone(problem, witness):
 # --- The program -------------------------------------------------------------------
 
 CYCLE = (" | ".join(["runs", *check_runs_in_space.KEYS]), check_cycle)
-CLAIMS = {"cycle": CYCLE, "counterexample": ("L D f a runs", check_runs_alone)}
+RAY = (check_runs_in_space.RAY_KEYS, check_ray)
+CLAIMS = {"cycle": CYCLE, "ray": RAY, "counterexample": ("L D f a runs", check_runs_alone)}
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Run the published algorithm again, as stiction certificates say that it runs.",
-                  "claims: cycle, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))
+                  "claims: cycle, ray, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))

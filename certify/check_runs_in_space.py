@@ -7,15 +7,15 @@ in a certificate and why it proves a loop. Called by check_runs.py.
   N1, F1, ...       normal and friction of each contact; rows fN, fx, fy of f and a; no friction: fN alone
   d                 the recorded direction of a contact in NCF
   C NC CF NCF half  the index sets; half: ax = 0 is kept by fx while fy is driven
-  Number            a number between two ends, integers over 2^bits, and between which ends its derivatives are
+  Number            a number between two ends, integers over 2^bits; over a box, how much it changes along each side
   memory            what an outer state remembers beyond its sets: resting forces, recorded directions
 
 Every sign that decides is proved; where one is not, Unsure is raised and nothing is guessed. What is zero by the
 algorithm, not by its ends, is set to zero. Two of these zeros need to know where the run has been:
 
-  line    Since aF of a contact in NCF was zero, f has moved along one direction only. So aF = t da with one number t,
+  line    f moves along a line on which aF of a contact in NCF was zero at some point. So aF = t da with one number t,
           and both components are zero where one is.
-  trail   Since a normal left C, f has moved along one direction only. Where its aN is zero again, it is back.
+  trail   f moves along the line that it took when a normal left C. Where its aN is zero again, f and a are back.
 
 Trusted: Python and this file, which was written from readings.md and shares no code or tables with the C++.
 """
@@ -37,6 +37,7 @@ SWITCHES = {  # the value of the reference policy `paper` first; those of the pl
     "ties": ("sets", "contacts"),
     "slip": ("literal", "redirect"),
 }
+RAY_KEYS = "policy bits word"
 KEYS = ("policy kind bits start period word", "policy kind bits start period word charts centre radii")
 
 
@@ -61,32 +62,61 @@ def product(a, b, c, d):
     return low >> Number.bits, -(-high >> Number.bits)
 
 
+def inverted(low, high):
+    if low <= 0 <= high:
+        raise Unsure("a divisor")
+    unit = 1 << 2 * Number.bits
+    return unit // high, -(-unit // low)
+
+
+def rooted(low, high):
+    if low <= 0:
+        raise Unsure("a root")
+    low, square = isqrt(low << Number.bits), high << Number.bits
+    high = isqrt(square)
+    return low, high + (high * high < square)
+
+
 class Number:
-    """low, high: integers over 2^bits. slopes: ends of the derivatives by the coordinates of a box; None: all zero."""
+    """low, high: integers over 2^bits. Over a box also slopes: the ends of the derivatives by coordinates from -1 to 1
+    along its sides (None: all zero), and centre: the ends in the middle of the box. By the mean value theorem the
+    number is no further from there than the slopes together: the ends are drawn in to that."""
 
     bits = 256
-    __slots__ = ("low", "high", "slopes")
+    __slots__ = ("low", "high", "centre", "slopes")
 
-    def __init__(self, low, high, slopes=None):
-        self.low, self.high, self.slopes = low, high, slopes
+    def __init__(self, low, high, centre=None, slopes=None):
+        self.low, self.high, self.centre, self.slopes = low, high, centre or (low, high), slopes
+        if slopes:
+            far = sum(max(-a, b) for a, b in slopes)
+            self.low, self.high = max(low, centre[0] - far), min(high, centre[1] + far)
 
     @classmethod
     def around(cls, x, radius=0):
         low, high = (x - radius) * (1 << cls.bits), (x + radius) * (1 << cls.bits)
         return cls(low.numerator // low.denominator, -(-high.numerator // high.denominator))
 
+    @classmethod
+    def side(cls, k, size, x, radius):
+        """Side k of a box of so many, around x."""
+        number, slope = cls.around(x, radius), cls.around(radius)
+        slopes = [(slope.low, slope.high) if m == k else (0, 0) for m in range(size)]
+        return cls(number.low, number.high, cls.around(x).centre, slopes)
+
     def is_zero(self):
         """Whether it is zero everywhere in the box, and known to be."""
         return self.low == 0 == self.high and (self.slopes is None or all(s == (0, 0) for s in self.slopes))
 
     def __neg__(self):
-        return Number(-self.high, -self.low, self.slopes and [(-b, -a) for a, b in self.slopes])
+        return Number(-self.high, -self.low, (-self.centre[1], -self.centre[0]),
+                      self.slopes and [(-b, -a) for a, b in self.slopes])
 
     def __add__(self, other):
         slopes = self.slopes or other.slopes
         if self.slopes and other.slopes:
             slopes = [(a + c, b + d) for (a, b), (c, d) in zip(self.slopes, other.slopes)]
-        return Number(self.low + other.low, self.high + other.high, slopes)
+        centre = self.centre[0] + other.centre[0], self.centre[1] + other.centre[1]
+        return Number(self.low + other.low, self.high + other.high, centre, slopes)
 
     def __sub__(self, other):
         return self + -other
@@ -99,17 +129,15 @@ class Number:
         slopes = parts[0] if parts else None
         if len(parts) == 2:
             slopes = [(a + c, b + d) for (a, b), (c, d) in zip(*parts)]
-        return Number(*product(self.low, self.high, other.low, other.high), slopes)
+        centre = slopes and product(*self.centre, *other.centre)
+        return Number(*product(self.low, self.high, other.low, other.high), centre, slopes)
 
     def inverse(self):
-        if self.low <= 0 <= self.high:
-            raise Unsure("a divisor")
-        one = 1 << 2 * self.bits
-        low, high = one // self.high, -(-one // self.low)
+        low, high = inverted(self.low, self.high)
         if self.slopes is None:
             return Number(low, high)
         a, b = product(low, high, low, high)
-        return Number(low, high, [product(-b, -a, *s) for s in self.slopes])
+        return Number(low, high, inverted(*self.centre), [product(-b, -a, *s) for s in self.slopes])
 
     def __truediv__(self, other):
         return self if self.is_zero() else self * other.inverse()
@@ -117,18 +145,13 @@ class Number:
     def root(self):
         if self.is_zero():
             return self
-        if self.low <= 0:
-            raise Unsure("a root")
-        low, square = isqrt(self.low << self.bits), self.high << self.bits
-        high = isqrt(square)
-        high += high * high < square
+        low, high = rooted(self.low, self.high)
         if self.slopes is None:
             return Number(low, high)
         if low == 0:
             raise Unsure("the slope of a root")
-        over = Number(low, high).inverse()
-        half = over.low >> 1, -(-over.high >> 1)
-        return Number(low, high, [product(*half, *s) for s in self.slopes])
+        over = inverted(2 * low, 2 * high)
+        return Number(low, high, rooted(*self.centre), [product(*over, *s) for s in self.slopes])
 
 
 ZERO = Number(0, 0)
@@ -250,13 +273,15 @@ class Run:
         self.d, self.d_name = [None] * contacts, [None] * contacts
         self.turned = [False] * contacts  # away: is to be driven anew against its acceleration
         self.on_circle = [False] * contacts  # abs(fF) = mu fN is known, though the contact is not in NCF
-        self.line, self.trail = [None] * contacts, None
+        self.slip_ends = set()  # (contact, line): there is a point of the line with aF = 0
+        self.trail, self.last_line, self.followed = None, None, 0
         self.known = set()  # which of the two has told a zero
         self.last, self.drives = None, 0
 
     def copy(self):
         other = object.__new__(Run)
         other.__dict__ = {key: list(x) if type(x) is list else x for key, x in self.__dict__.items()}
+        other.slip_ends = set(self.slip_ends)
         return other
 
     def tangent(self, values, i):
@@ -493,11 +518,21 @@ class Run:
                 forces.append(tests[-1])
         return self.follow(tests, forces, df, self.space.times(df), but)
 
-    def name_of_direction(self, letter, i, axis_name, kept):
-        """Of equal names the directions are equal, up to their sign."""
-        F = ["driven" if letter == "F" and k == i else x for k, x in enumerate(self.F)]
-        names = [self.d_name[k] if x == "NCF" else None for k, x in enumerate(F)]
-        return (*self.N, *F, *names, letter, i, axis_name, kept and kept[1])
+    def name_of_line(self, letter, i, axis_name, kept):
+        """(direction, forces at rest) of the line of a step: of equal names the lines are equal. Forces at rest: 0 where
+        they are zero, otherwise a number for each line that the run has followed. The rest of f follows from a = 0 in C
+        and CF and fF = mu fN d in NCF, up to one number; a friction that is driven is along its axes."""
+        direction, at_zero = (letter, i, axis_name, kept and kept[1]), True
+        for k, row in enumerate(self.space.first):
+            moves = self.N[k] == "C" or (letter, k) == ("N", i)
+            follows = moves and self.F[k] == "NCF"
+            sticks = self.F[k] == "CF" or (letter, k) == ("F", i)
+            direction += (moves, sticks, follows and self.d_name[k])
+            at_zero = at_zero and (moves or self.f[row].is_zero())
+            if self.space.mu[k] is not None and not (sticks or follows):
+                at_zero = at_zero and vanishes(self.tangent(self.f, k))
+        goes_on = self.last_line is not None and self.last_line[0] == direction
+        return direction, 0 if at_zero else self.followed + (not goes_on)
 
     def drive(self, letter, i, axis=None, axis_name=None, kept=None, goal="establish", gap=None):
         """kept: the axis of half. gap: how far the goal of a friction is, in aF along the axis or in fF."""
@@ -505,7 +540,7 @@ class Run:
         left, zero_before = {}, False
         limiting = None
         while limiting != "driven":
-            name = self.name_of_direction(letter, i, axis_name, kept)
+            line = self.name_of_line(letter, i, axis_name, kept)
             towards = opposite(axis) if goal == "zero" else axis
             df, da = self.direction(letter, i, towards, kept)
             if goal == "zero":
@@ -514,21 +549,23 @@ class Run:
                 fall = inner(axis, self.tangent(da, i))
             else:
                 fall, gap = da[self.space.first[i]], -self.a[self.space.first[i]]
-            t, _, limiting, k, into = self.nearest(self.limits(letter, i, goal, df, da, gap, fall, name))
+            t, _, limiting, k, into = self.nearest(self.limits(letter, i, goal, df, da, gap, fall, line))
             zero = t.is_zero()
-            self.advance(t, df, da, name, limiting, k, into)
+            self.advance(t, df, da, line, limiting, k, into)
             if not zero and letter == "F":
                 gap = gap - t * fall
-            self.meet(limiting, k, into, df, name, kept, axis_name)
+            self.meet(limiting, k, into, df, line, kept, axis_name)
             if limiting == "driven":
                 self.move_driven(letter, i, into)
             else:
                 self.move(limiting, k, into, letter, i, left, zero_before, zero)
+            if not zero:
+                self.note_slip_ends(line)
             what = letter if limiting == "driven" else limiting
             self.on_step(f"{letter}{i + 1} {what}{k + 1} {self.N[k] if what == 'N' else self.F[k]}")
             zero_before = zero
 
-    def limits(self, letter, i, goal, df, da, gap, fall, name):
+    def limits(self, letter, i, goal, df, da, gap, fall, line):
         """(step, rank among ties, what limits, its contact, the set it wants into)."""
         if goal == "zero":
             yield gap, (-1, 0), "driven", i, "none"
@@ -549,7 +586,7 @@ class Run:
             if self.F[k] == "CF":
                 yield from ((*x, "F", k, "NCF") for x in self.circle(k, df, by_set(2, row + 1)))
             elif self.F[k] == "NCF":
-                yield from ((*x, "F", k, "CF") for x in self.slipping(k, da, by_set(3, row + 1), name))
+                yield from ((*x, "F", k, "CF") for x in self.slipping(k, da, by_set(3, row + 1), line))
 
     @staticmethod
     def reached(gap, fall, rank):
@@ -578,10 +615,10 @@ class Run:
         elif sign(B) < 0 and sign(D) >= 0:
             yield c / (D.root() - B), rank
 
-    def slipping(self, i, da, rank, name):
+    def slipping(self, i, da, rank, line):
         """Back into CF: at aF = 0, or under slip=redirect at d.aF = 0."""
         aF, dA = self.tangent(self.a, i), self.tangent(da, i)
-        one_line = self.line[i] == name and not vanishes(aF)
+        one_line = (i, line) in self.slip_ends and not vanishes(aF)
         redirect = self.policy["slip"] == "redirect"
         if not one_line and (redirect or vanishes(aF)):
             yield from self.reached(-inner(self.d[i], aF), inner(self.d[i], dA), rank)
@@ -614,26 +651,30 @@ class Run:
             best = limit if order < 0 else best
         return best
 
-    def advance(self, t, df, da, name, limiting, k, into):
+    def note_slip_ends(self, line):
+        self.slip_ends.update((i, line) for i, mu in enumerate(self.space.mu)
+                              if mu is not None and vanishes(self.tangent(self.a, i)))
+
+    def advance(self, t, df, da, line, limiting, k, into):
         """f += t df, a += t da; and what is known of where the run has been."""
         if t.is_zero():
             return
+        if line != self.last_line:
+            self.last_line, self.followed = line, self.followed + 1
+        self.note_slip_ends(line)
         trail = self.trail
-        if trail:
-            trail = self.trail = {**trail, "name": name} if trail["name"] in (None, name) else None
-        if trail and (limiting, k, into) == ("N", trail["contact"], "C"):
-            self.f, self.a, self.line, self.trail = list(trail["f"]), list(trail["a"]), list(trail["line"]), None
+        if trail and trail["line"] is None:
+            trail = self.trail = {**trail, "line": line}
+        if trail and (limiting, k, into) == ("N", trail["contact"], "C") and trail["line"] == line:
+            self.f, self.a = list(trail["f"]), list(trail["a"])
             self.known.add("trail")
         else:
-            for i in range(len(self.N)):
-                begins = self.F[i] == "NCF" and vanishes(self.tangent(self.a, i))
-                self.line[i] = name if self.F[i] == "NCF" and (begins or self.line[i] == name) else None
             self.f, self.a = plus(self.f, scaled(t, df)), plus(self.a, scaled(t, da))
         for i, row in enumerate(self.space.first):
             if not vanishes(df[row:row + 3] if self.space.mu[i] else []):
                 self.on_circle[i] = False
 
-    def meet(self, limiting, i, into, df, name, kept, axis_name):
+    def meet(self, limiting, i, into, df, line, kept, axis_name):
         """The limit is met exactly, and so is abs(fF) = mu fN in NCF."""
         row = self.space.first[i]
         if into == "C":
@@ -651,7 +692,7 @@ class Run:
                 self.a[row + 1] = self.a[row + 2] = ZERO
             elif axis_name in ("x", "y"):
                 self.a[row + 1 + (axis_name == "y")] = ZERO
-        elif self.policy["slip"] == "literal" or self.line[i] == name:
+        elif self.policy["slip"] == "literal" or (i, line) in self.slip_ends:
             if self.policy["slip"] == "redirect" and not vanishes(self.tangent(self.a, i)):
                 self.known.add("line")
             self.a[row + 1] = self.a[row + 2] = ZERO
@@ -659,7 +700,7 @@ class Run:
             if self.F[k] == "NCF" or (k == i and into == "NCF"):
                 self.f[at + 1:at + 3] = scaled(self.bound(k), self.d[k])
         if limiting == "N" and into == "NC":
-            self.trail = {"contact": i, "f": list(self.f), "a": list(self.a), "line": list(self.line), "name": None}
+            self.trail = {"contact": i, "f": list(self.f), "a": list(self.a), "line": None}
 
     def move_driven(self, letter, i, into):
         if letter == "N":
@@ -712,7 +753,7 @@ class Run:
             self.outer()
 
 
-# --- The claim cycle in space --------------------------------------------------------
+# --- The claims cycle and ray in space --------------------------------------------------------
 
 class Stated:
     """The steps that a certificate states, against those that are made."""
@@ -722,12 +763,12 @@ class Stated:
 
     def __call__(self, step):
         place = f"$.witness.word[{self.done}]"
-        need(self.done < len(self.word), "$.witness.word", len(self.word), "more steps: no repetition yet")
+        need(self.done < len(self.word), "$.witness.word", len(self.word), "more steps: it does not end there")
         need(self.word[self.done] == step, place, self.word[self.done], step)
         self.done += 1
 
     def must_be_done(self):
-        need(self.done == len(self.word), "$.witness.word", len(self.word), f"{self.done} steps to the repetition")
+        need(self.done == len(self.word), "$.witness.word", len(self.word), f"{self.done} steps")
 
 
 def same_state_again(run, earlier):
@@ -781,9 +822,7 @@ def check_box(run, witness):
     charts, centre, radii = read_box(run, witness)
     size, unit = len(centre), 1 << Number.bits
     middle, *_ = image(run, witness, [Number.around(x) for x in centre], charts)
-    box = [Number.around(x, r) for x, r in zip(centre, radii)]
-    for m, x in enumerate(box):
-        x.slopes = [(unit, unit) if k == m else (0, 0) for k in range(size)]
+    box = [Number.side(m, size, x, r) for m, (x, r) in enumerate(zip(centre, radii))]
     found, ends, begins = image(run, witness, box, charts)
     kept = 0
     for m, (row, i) in enumerate(run.memory()):
@@ -794,33 +833,55 @@ def check_box(run, witness):
             untouched = (found[m].low, found[m].high, slopes) == (box[m].low, box[m].high, box[m].slopes)
         kept += untouched
         reach = distance(centre[m], (middle[m].low, middle[m].high)) + sum(
-            Fraction(max(map(abs, ends_of)), unit) * r for ends_of, r in zip(slopes, radii))
+            Fraction(max(map(abs, ends_of)), unit) for ends_of in slopes)
         need(untouched or reach <= radii[m], f"$.witness.radii[{m}]", radii[m], reach, ", as far as the period leads")
     return f"a box of {size} coordinates, {kept} untouched"
+
+
+def begin(problem, witness, policy, coordinates=0):
+    """A run from f = 0, over numbers of so many bits, of the steps that are stated."""
+    Number.bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
+    word = items(witness["word"], "$.witness.word")
+    for at, step in word:
+        need(type(step) is str, at, step, "a step as a text")
+    cost = Cost(reduced_operations(len(problem.b), 8 * (len(word) + 1) * (1 + coordinates))).add(2 * Number.bits)
+    cost.longest_row(problem)
+    return Run(Space(problem), policy, Stated(witness["word"]))
+
+
+def refuse_unsure(run, unsure):
+    need(False, "$.witness.bits", Number.bits, f"more bits: {unsure} is not told after {run.on_step.done} steps")
+
+
+def check_ray(problem, witness, policy):
+    """The facts to print of a run that comes to a step which nothing limits."""
+    run = begin(problem, witness, policy)
+    try:
+        while True:
+            run.outer()
+    except Unsure as unsure:
+        refuse_unsure(run, unsure)
+    except End as end:
+        need(str(end) == "ray", "$.witness.word", str(end), "a run that ends in a step without a limit")
+    run.on_step.must_be_done()
+    return f"in space, after {run.on_step.done} steps"
 
 
 def check_loop(problem, witness, policy):
     """The facts to print of a loop in space."""
     kind = one_of(witness["kind"], "$.witness.kind", ("states", "box"))
-    bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
     start = integer(witness["start"], "$.witness.start", 0, 1 << 31)
     period = integer(witness["period"], "$.witness.period", 1, 1 << 31)
-    word = items(witness["word"], "$.witness.word")
-    for at, step in word:
-        need(type(step) is str, at, step, "a step as a text")
     need((kind == "box") == ("radii" in witness), "$.witness", kind, "charts, centre and radii of a box only")
     coordinates = len(witness["radii"]) if kind == "box" and type(witness["radii"]) is list else 0
     need(coordinates <= 3 * len(problem.contacts), "$.witness.radii", coordinates, "fewer coordinates")
-    cost = Cost(reduced_operations(len(problem.b), 8 * (len(word) + 1) * (1 + coordinates))).add(2 * bits)
-    cost.longest_row(problem)
-    Number.bits = bits
-    run = Run(Space(problem), policy, Stated(witness["word"]))
+    run = begin(problem, witness, policy, coordinates)
     try:
         run.run_until(start)
         need(run.drives == start, "$.witness.start", start, f"{run.drives}: no outer state after {start} drives")
         how = check_states(run, witness) if kind == "states" else check_box(run, witness)
     except Unsure as unsure:
-        need(False, "$.witness.bits", bits, f"more bits: {unsure} is not told after {run.on_step.done} steps")
+        refuse_unsure(run, unsure)
     except End as end:
         need(False, "$.witness.word", str(end), "a run that does not end")
     by = f", by the {' and the '.join(sorted(run.known))}" if run.known else ""

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of the published algorithm that repeat a state, or in space stay in a box for ever: `cycle`; and
-// `counterexample`, where A is definite and there is a solution besides.
+// Runs of the published algorithm that repeat a state, or in space stay in a box for ever: `cycle`; that end in
+// a step which nothing limits: `ray`, in space; and `counterexample`, where A is definite and there is a
+// solution besides.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -103,6 +104,16 @@ Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& po
   if (problem.dimension == 3) return LoopInSpaceToJson(problem, policies, limits);
   const Json runs = CyclesToJson(problem, policies, limits);
   return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
+}
+
+Json RayCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+  for (const Policy& policy : policies) {
+    if (!PublishedReadsInSpace(policy)) continue;
+    if (const auto ray = ProveRayInSpace(problem, policy, limits))
+      return MakeCertificate("ray", problem,
+                             {{"policy", PolicyName(policy)}, {"bits", ray->bits}, {"word", ray->word}});
+  }
+  return nullptr;
 }
 
 Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
@@ -259,9 +270,26 @@ Json CheckRuns(const ExactProblem& problem, const Json& witness) {
           {"period", NumbersOf(runs, "period")}};
 }
 
-// ---- A loop in space ----
+// ---- A run in space ----
 
 constexpr int kLeastBits = 64, kMostBits = 4096;
+
+int ReadBits(const Json& witness) {
+  const std::int64_t bits = ReadInteger(witness["bits"], "witness.bits", kLeastBits);
+  if (bits > kMostBits)
+    throw Rejected{"witness.bits", Shown(witness["bits"]), fmt::format("at most {}", kMostBits)};
+  return static_cast<int>(bits);
+}
+
+std::vector<std::string> ReadWord(const Json& witness) {
+  RequireList(witness["word"], "witness.word");
+  std::vector<std::string> word;
+  for (const Json& step : witness["word"]) {
+    if (!step.is_string()) throw Rejected{"witness.word", Shown(step), "a step as a text"};
+    word.push_back(step.get<std::string>());
+  }
+  return word;
+}
 
 LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   const bool box = witness.contains("kind") && witness["kind"] == "box";
@@ -271,17 +299,10 @@ LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   if (!box && witness["kind"] != "states")
     throw Rejected{"witness.kind", Shown(witness["kind"]), "states or box"};
   LoopInSpace loop;
-  const std::int64_t bits = ReadInteger(witness["bits"], "witness.bits", kLeastBits);
-  if (bits > kMostBits)
-    throw Rejected{"witness.bits", Shown(witness["bits"]), fmt::format("at most {}", kMostBits)};
-  loop.bits = static_cast<int>(bits);
+  loop.bits = ReadBits(witness);
   loop.start = ReadInteger(witness["start"], "witness.start", 0);
   loop.period = ReadInteger(witness["period"], "witness.period", 1);
-  RequireList(witness["word"], "witness.word");
-  for (const Json& step : witness["word"]) {
-    if (!step.is_string()) throw Rejected{"witness.word", Shown(step), "a step as a text"};
-    loop.word.push_back(step.get<std::string>());
-  }
+  loop.word = ReadWord(witness);
   if (!box) return loop;
   RequireList(witness["charts"], "witness.charts");
   const std::size_t size = witness["charts"].size();
@@ -295,14 +316,18 @@ LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   return loop;
 }
 
-Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness) {
-  if (problem.dimension != 3) throw Rejected{"problem.dimension", "2", "3: in the plane its runs are stated"};
+void RequireRunInSpace(const ExactProblem& problem) {
+  if (problem.dimension != 3) throw Rejected{"problem.dimension", "2", "3: in the plane runs are stated"};
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const ContactKind kind = problem.contacts[i].kind;
     if (kind != ContactKind::kFrictionless && kind != ContactKind::kStatic)
       throw Rejected{fmt::format("problem.contacts[{}].kind", i), std::string(Name(kind)),
                      "frictionless or static"};
   }
+}
+
+Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness) {
+  RequireRunInSpace(problem);
   const LoopInSpace loop = ReadLoop(problem, witness);
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   const auto steps = static_cast<double>(loop.word.size() + 1) * static_cast<double>(1 + loop.charts.size());
@@ -314,6 +339,18 @@ Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness) {
           {"coordinates", loop.charts.size()},
           {"start", Json::array({loop.start})},
           {"period", Json::array({loop.period})}};
+}
+
+Json CheckRay(const ExactProblem& problem, const Json& witness) {
+  RequireRunInSpace(problem);
+  RequireKeys(witness, "witness", {"policy", "bits", "word"});
+  const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
+  const RayInSpace ray = {ReadBits(witness), ReadWord(witness)};
+  const auto steps = static_cast<double>(ray.word.size() + 1);
+  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * ray.bits).LongestRow(problem);
+  if (const auto fault = FindRayFault(problem, policy, ray))
+    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+  return {{"policies", 1}, {"steps", ray.word.size()}};
 }
 
 Json CheckCycle(const ExactProblem& problem, const Json& witness) {
@@ -334,6 +371,9 @@ Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
 Json OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
   return CycleCertificate(problem, o.policies, o.limits);
 }
+Json OfRay(const ExactProblem& problem, const ClaimOptions& o) {
+  return RayCertificate(problem, o.policies, o.limits);
+}
 Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
   return CounterexampleCertificate(problem, o.policies, o.limits);
 }
@@ -347,11 +387,19 @@ void RequireLoops(const ExactProblem& problem, const std::string& source) {
                    "frictionless and static ones: of these loops in space are certified");
 }
 
+void RequireLoopsInSpace(const ExactProblem& problem, const std::string& source) {
+  if (problem.dimension != 3)
+    throw InputError(source, "dimension", "2", "3: in the plane `solve` tells of a ray");
+  RequireLoops(problem, source);
+}
+
 ClaimRows CycleClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"cycle", CheckCycle,
             "the published algorithm repeats a state of its outer loop, or in space never ends", OfCycle,
             RequireLoops},
+      Claim{"ray", CheckRay, "in space the published algorithm comes to a step that nothing limits", OfRay,
+            RequireLoopsInSpace},
       Claim{"counterexample", CheckCounterexample,
             "it does, though A is definite and there is a solution: all in one file", OfCounterexample,
             RequirePlanar}};

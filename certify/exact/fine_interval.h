@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// FineInterval: a number between two ends, integers over 2^bits, rounded outwards; and between which ends its
-// derivatives are by the coordinates of a box. An enclosure (solver/problem/enclosure.h); a comparison that it
-// leaves open throws, as those of intervals do.
+// FineInterval: a number between two ends, integers over 2^bits, rounded outwards; over a box, also between
+// which ends it is at the centre, and its slopes, the derivatives by coordinates from -1 to 1 along the sides
+// of the box. An enclosure (solver/problem/enclosure.h); a comparison that it leaves open throws, as those of
+// intervals do.
 //
-// With derivatives F' over a box around c, F(x) is in F(c) + F' (x - c) for every x in it (mean value theorem):
-// so a box of many rounds of an algorithm is not overestimated in proportion to its size.
+// With slopes F' over the box, F(x) is in F(0) + F' x for every x in it (mean value theorem). After every
+// operation the ends are drawn in to that: so a box of many rounds of an algorithm is not overestimated in
+// proportion to its size.
 //
 // Bits   those of the thread, from the making of a FineBits to its end: no number outlives it.
 
@@ -51,19 +53,19 @@ class FineInterval {
   FineInterval() = default;
   FineInterval(int x)  // NOLINT(google-explicit-constructor): a scalar
       : ends_{mpz_class(x) << FineBits::Now(), mpz_class(x) << FineBits::Now()} {}
-  explicit FineInterval(FineEnds ends, Slopes slopes = {})
-      : ends_(std::move(ends)), slopes_(std::move(slopes)) {}
+  explicit FineInterval(FineEnds ends) : ends_(std::move(ends)) {}
 
   // No further from x than the radius.
   static FineInterval Around(const Rational& x, const Rational& radius = 0) {
     return FineInterval({Floor(x - radius), -Floor(-x - radius)});
   }
-  // Coordinate k of a box.
-  static FineInterval Coordinate(int k, const Rational& x, const Rational& radius) {
-    FineInterval coordinate = Around(x, radius);
-    coordinate.slopes_.assign(k + 1, {0, 0});
-    coordinate.slopes_[k] = FineInterval(1).ends_;
-    return coordinate;
+  // Side k of a box, around x.
+  static FineInterval Side(int k, const Rational& x, const Rational& radius) {
+    return Moving(Around(x, radius).ends_, x, k, Around(radius).ends_);
+  }
+  // x alone, with the derivative 1 by coordinate k.
+  static FineInterval Variable(int k, const Rational& x) {
+    return Moving(Around(x).ends_, x, k, FineInterval(1).ends_);
   }
 
   const FineEnds& ends() const { return ends_; }
@@ -83,24 +85,23 @@ class FineInterval {
   }
 
   FineInterval operator-() const {
-    FineInterval result(-ends_, slopes_);
+    FineInterval result = *this;
+    result.ends_ = -ends_;
+    result.centre_ = -centre_;
     for (FineEnds& slope : result.slopes_) slope = -slope;
     return result;
   }
   friend FineInterval operator+(const FineInterval& x, const FineInterval& y) {
-    FineInterval sum(x.ends_ + y.ends_, x.slopes_);
-    sum.AddSlopes(y.slopes_);
-    return sum;
+    return DrawnIn(x.ends_ + y.ends_, x.AtCentre() + y.AtCentre(), Sum(x.slopes_, y.slopes_));
   }
   friend FineInterval operator-(const FineInterval& x, const FineInterval& y) { return x + -y; }
   friend FineInterval operator*(const FineInterval& x, const FineInterval& y) {
     if (x.IsZero() || y.IsZero()) return {};
-    FineInterval product(x.ends_ * y.ends_, Times(x.slopes_, y.ends_));
-    product.AddSlopes(Times(y.slopes_, x.ends_));
-    return product;
+    return DrawnIn(x.ends_ * y.ends_, x.AtCentre() * y.AtCentre(),
+                   Sum(Times(x.slopes_, y.ends_), Times(y.slopes_, x.ends_)));
   }
   friend FineInterval operator/(const FineInterval& x, const FineInterval& y) {
-    return x.IsZero() ? FineInterval() : x * y.Inverse();
+    return x.IsZero() ? FineInterval() : x * y.Inverted();
   }
   FineInterval& operator+=(const FineInterval& y) { return *this = *this + y; }
   FineInterval& operator-=(const FineInterval& y) { return *this = *this - y; }
@@ -109,13 +110,10 @@ class FineInterval {
 
   friend FineInterval sqrt(const FineInterval& x) {
     if (x.IsZero()) return {};
-    if (x.ends_.low <= 0) Unsure<Interval>::Refuse();
-    const mpz_class low = x.ends_.low << FineBits::Now(), high = x.ends_.high << FineBits::Now();
-    FineEnds root = {::sqrt(low), ::sqrt(high)};
-    if (root.high * root.high < high) ++root.high;
+    FineEnds root = Root(x.ends_);
     if (x.slopes_.empty()) return FineInterval(std::move(root));
-    const FineEnds over = FineInterval(root + root).Inverse().ends_;
-    return FineInterval(std::move(root), Times(x.slopes_, over));
+    const FineEnds over = Inverse(root + root);
+    return DrawnIn(std::move(root), Root(x.centre_), Times(x.slopes_, over));
   }
 
   friend bool operator<(const FineInterval& x, const FineInterval& y) {
@@ -141,26 +139,57 @@ class FineInterval {
     mpz_fdiv_q(floor.get_mpz_t(), numerator.get_mpz_t(), x.get_den_mpz_t());
     return floor;
   }
+  static FineInterval Moving(FineEnds ends, const Rational& centre, int k, FineEnds slope) {
+    FineInterval moving(std::move(ends));
+    moving.centre_ = Around(centre).ends_;
+    moving.slopes_.assign(k + 1, {0, 0});
+    moving.slopes_[k] = std::move(slope);
+    return moving;
+  }
+  static FineInterval DrawnIn(FineEnds ends, const FineEnds& centre, Slopes slopes) {
+    FineInterval result(std::move(ends));
+    if (slopes.empty()) return result;
+    mpz_class far = 0;
+    for (const FineEnds& slope : slopes) far += slope.Largest();
+    result.ends_.low = std::max<mpz_class>(result.ends_.low, centre.low - far);
+    result.ends_.high = std::min<mpz_class>(result.ends_.high, centre.high + far);
+    result.centre_ = centre;
+    result.slopes_ = std::move(slopes);
+    return result;
+  }
+  const FineEnds& AtCentre() const { return slopes_.empty() ? ends_ : centre_; }
   static Slopes Times(Slopes slopes, const FineEnds& factor) {
     for (FineEnds& slope : slopes) slope = slope * factor;
     return slopes;
   }
-  void AddSlopes(const Slopes& slopes) {
-    if (slopes_.size() < slopes.size()) slopes_.resize(slopes.size());
-    for (std::size_t k = 0; k < slopes.size(); ++k) slopes_[k] = slopes_[k] + slopes[k];
+  static Slopes Sum(Slopes x, const Slopes& y) {
+    if (x.size() < y.size()) x.resize(y.size());
+    for (std::size_t k = 0; k < y.size(); ++k) x[k] = x[k] + y[k];
+    return x;
   }
-  FineInterval Inverse() const {
-    if (ends_.low <= 0 && ends_.high >= 0) Unsure<Interval>::Refuse();
+  static FineEnds Root(const FineEnds& x) {
+    if (x.low <= 0) Unsure<Interval>::Refuse();
+    const mpz_class low = x.low << FineBits::Now(), high = x.high << FineBits::Now();
+    FineEnds root = {::sqrt(low), ::sqrt(high)};
+    if (root.high * root.high < high) ++root.high;
+    return root;
+  }
+  static FineEnds Inverse(const FineEnds& x) {
+    if (x.low <= 0 && x.high >= 0) Unsure<Interval>::Refuse();
     const mpz_class one = mpz_class(1) << 2 * FineBits::Now();
     FineEnds inverse;
-    mpz_fdiv_q(inverse.low.get_mpz_t(), one.get_mpz_t(), ends_.high.get_mpz_t());
-    mpz_cdiv_q(inverse.high.get_mpz_t(), one.get_mpz_t(), ends_.low.get_mpz_t());
+    mpz_fdiv_q(inverse.low.get_mpz_t(), one.get_mpz_t(), x.high.get_mpz_t());
+    mpz_cdiv_q(inverse.high.get_mpz_t(), one.get_mpz_t(), x.low.get_mpz_t());
+    return inverse;
+  }
+  FineInterval Inverted() const {
+    FineEnds inverse = Inverse(ends_);
     if (slopes_.empty()) return FineInterval(std::move(inverse));
     const FineEnds square = -(inverse * inverse);
-    return FineInterval(std::move(inverse), Times(slopes_, square));
+    return DrawnIn(std::move(inverse), Inverse(centre_), Times(slopes_, square));
   }
 
-  FineEnds ends_;
+  FineEnds ends_, centre_;  // centre_: where there are slopes; otherwise it is in ends_
   Slopes slopes_;
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "certify/exact/fine_interval.h"
@@ -216,7 +217,7 @@ Coordinates Points(const ExactVector& centre) {
 
 Coordinates BoxAround(const ExactVector& centre, const ExactVector& radii) {
   Coordinates box;
-  for (int k = 0; k < centre.size(); ++k) box.push_back(FineInterval::Coordinate(k, centre[k], radii[k]));
+  for (int k = 0; k < centre.size(); ++k) box.push_back(FineInterval::Side(k, centre[k], radii[k]));
   return box;
 }
 
@@ -225,6 +226,7 @@ Rational DistanceTo(const FineInterval& x, const Rational& point) {
   return std::max(Rational(abs(x.Low() - point)), Rational(abs(x.High() - point)));
 }
 
+// Along the whole of a side.
 Rational SteepestOf(const FineInterval& x, std::size_t k) {
   return k < x.slopes().size() ? FineInterval::Over(x.slopes()[k].Largest()) : Rational(0);
 }
@@ -235,7 +237,7 @@ std::optional<std::pair<int, Rational>> LeavesBox(const Image& middle, const Ima
   for (int i = 0; i < centre.size(); ++i) {
     if (image.untouched[i]) continue;
     Rational reach = DistanceTo(middle.x[i], centre[i]);
-    for (int k = 0; k < centre.size(); ++k) reach += SteepestOf(image.x[i], k) * radii[k];
+    for (int k = 0; k < centre.size(); ++k) reach += SteepestOf(image.x[i], k);
     if (reach > radii[i]) return std::pair(i, reach);
   }
   return std::nullopt;
@@ -387,8 +389,9 @@ class LoopSearch {
     ExactVector c(size);
     for (int k = 0; k < size; ++k) c[k] = near[k].Middle();
     for (int step = 0; step < kNewtonSteps; ++step) {
-      const Image image = problem_.ImageOf(top.state, BoxAround(c, ExactVector::Constant(size, Rational(0))),
-                                           charts, period, kMostSteps);
+      Coordinates variables;
+      for (int k = 0; k < size; ++k) variables.push_back(FineInterval::Variable(k, c[k]));
+      const Image image = problem_.ImageOf(top.state, variables, charts, period, kMostSteps);
       Eigen::MatrixXd M = Eigen::MatrixXd::Identity(size, size);
       Eigen::VectorXd rest = Eigen::VectorXd::Zero(size);
       for (int i = 0; i < size; ++i) {
@@ -450,7 +453,7 @@ class LoopSearch {
       Eigen::MatrixXd steepest(size, size);
       for (int i = 0; i < size; ++i) {
         for (int k = 0; k < size; ++k)
-          steepest(i, k) = image.untouched[i] ? 0 : ToDouble(SteepestOf(image.x[i], k));
+          steepest(i, k) = image.untouched[i] ? 0 : ToDouble(Rational(SteepestOf(image.x[i], k) / radii[k]));
       }
       weights.setOnes();
       for (int k = 0; k < 100; ++k) weights = Eigen::VectorXd::Ones(size) + steepest * weights;
@@ -492,7 +495,7 @@ class LoopSearch {
 LoopFault OtherStep(const Steps& stated, const Steps& taken, std::size_t first) {
   for (std::size_t k = 0; k < taken.size(); ++k) {
     if (first + k >= stated.size())
-      return {"word", fmt::format("{} steps", stated.size()), "more: no repetition yet"};
+      return {"word", fmt::format("{} steps", stated.size()), "more: it does not end there"};
     if (stated[first + k] != taken[k]) return {fmt::format("word[{}]", first + k), stated[first + k], taken[k]};
   }
   return {"word", fmt::format("{} steps", stated.size()), fmt::format("{}", first + taken.size())};
@@ -586,6 +589,46 @@ std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const P
     }
     if (loop && !FindLoopFault(problem, policy, *loop)) return loop;
     if (hopeless || limits.Stopped() || (effort.bits >= kBitsForAll && !contracts)) break;
+  }
+  return std::nullopt;
+}
+
+std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy,
+                                      const RayInSpace& ray) {
+  const FineBits bits(ray.bits);
+  const FineProblem fine(problem, policy, {});
+  Walk walk = fine.Begin();
+  std::string end = "a run that goes on";
+  try {
+    while (walk.word().size() <= ray.word.size()) walk.TakeTurn();
+  } catch (const UnsureComparison&) {
+    return LoopFault{"bits", std::to_string(ray.bits), "a run of which every sign is told"};
+  } catch (const RunEnded& ended) {
+    end = ended.how;
+  }
+  if (!Stands(ray.word, walk.word(), 0)) return OtherStep(ray.word, walk.word(), 0);
+  if (end != Name(Outcome::kRay)) return LoopFault{"word", end, "a run that ends in a step without a limit"};
+  return std::nullopt;
+}
+
+std::optional<RayInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
+                                          const Limits& limits) {
+  for (const Effort effort : std::span(kEfforts).first(2)) {
+    std::optional<RayInSpace> ray;
+    try {
+      const FineBits bits(effort.bits);
+      const FineProblem fine(problem, policy, limits);
+      Walk walk = fine.Begin();
+      try {
+        for (int turn = 0; turn < effort.turns; ++turn) walk.TakeTurn();
+      } catch (const RunEnded& end) {
+        if (end.how != Name(Outcome::kRay)) return std::nullopt;
+        ray = {effort.bits / 2 * 3, walk.word()};
+      }
+    } catch (const UnsureComparison&) {
+      continue;
+    }
+    if (ray && !FindRayFault(problem, policy, *ray)) return ray;
   }
   return std::nullopt;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proofs that a run of the published algorithm in space never ends.
+// Proofs that a run of the published algorithm in space never ends, or ends in a step that nothing limits.
 //
 // States   The sets of a state that remembers nothing else recur (solver/published/readings.md, 8).
 // Boxes    What a state remembers beyond its sets are resting forces and recorded directions, a few coordinates
@@ -11,6 +11,7 @@
 //            abs(F(c) - c)_i + sum_j sup abs(dF_i / dx_j) r_j <= r_i
 //
 //          keeps it in the box for ever. A coordinate that the period leaves untouched is a parameter.
+// Rays     After the last step something is driven, and no limit is met, however far.
 //
 // certify/certificates.md, Loops in space, says what stands in a certificate, and has the proof.
 //
@@ -41,6 +42,12 @@ struct LoopInSpace {
   bool IsBox() const { return radii.size() > 0; }
 };
 
+// A run that ends in an infinite step.
+struct RayInSpace {
+  int bits = 0;
+  std::vector<std::string> word;  // every step from f = 0 to the one that nothing limits
+};
+
 // What is wrong with a proof.
 struct LoopFault {
   std::string place, found, expected;
@@ -53,6 +60,10 @@ std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const P
                                             const Limits& limits);
 std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
                                        const LoopInSpace& loop);
+
+std::optional<RayInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
+                                          const Limits& limits);
+std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy, const RayInSpace& ray);
 
 }  // namespace stiction
 

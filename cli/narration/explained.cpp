@@ -148,7 +148,7 @@ Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::s
     try {
       claim.require(problem, o.file);
       const Json certificate = claim.certify(problem, options);
-      const bool of_runs = claim.name == "cycle" || claim.name == "counterexample";
+      const bool of_runs = claim.name == "cycle" || claim.name == "ray" || claim.name == "counterexample";
       claims.push_back(
           {{"claim", claim.name},
            {"meaning", claim.meaning},

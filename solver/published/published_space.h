@@ -27,6 +27,8 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "solver/linear/direction.h"
@@ -121,14 +123,13 @@ class PublishedInSpace {
   struct Frame {
     Tangent p = {Scalar(1), Scalar(0)}, q = {Scalar(0), Scalar(1)};
   };
-  // Of equal names the directions of f are equal, up to their sign; empty where a matrix is singular.
-  using DirectionName = std::vector<int>;
+  // Of a line in the space of forces; of equal names the lines are equal. Empty where a matrix is singular.
+  using LineName = std::vector<int>;
   // The state at which a normal left C, f and a in the frames of now.
   struct Trail {
-    int normal = -1;     // none
-    DirectionName name;  // along which alone f has moved since; empty: it has not
+    int normal = -1;  // none
+    LineName line;    // that the run took from there; empty: it has not moved
     Vector f, a;
-    std::vector<DirectionName> lines;
   };
   struct Limit {
     bool exists = false;
@@ -191,9 +192,10 @@ class PublishedInSpace {
   void RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up);
 
   // Where the run has been: enclosures.
-  DirectionName NameOfDirection(int driven) const;
-  bool IsOnLine(int contact) const;
-  bool ReturnsAlongTrail(const Step<Scalar>& step, bool zero);
+  LineName NameOfLine(int driven) const;
+  bool SlipEndsOnLine(int contact) const;
+  void NoteSlipEnds();
+  void MoveAlong(const Step<Scalar>& step, bool zero);
 
   // Frames. Friction of a contact is in rows `row`, `row` + 1 of state_, along p and q.
   void Turn(int contact, const Tangent& p);
@@ -225,9 +227,9 @@ class PublishedInSpace {
   static constexpr int kProblemAxes = 0;
   std::vector<int> axes_;  // by contact: of equal numbers the axes are equal, up to their signs
   int turned_axes_ = 0;
-  DirectionName direction_name_;
-  // By contact: since aF was zero in NCF, f has moved along this direction alone; empty: along others.
-  std::vector<DirectionName> lines_;
+  LineName line_, last_line_;  // of this step; of the last one that was not zero
+  int lines_followed_ = 0;
+  std::set<std::pair<int, LineName>> slip_ends_;  // contact, line: there is a point of the line with aF = 0
   Trail trail_;
   PublishedSpaceVerdict verdict_;
   bool ended_ = false;

@@ -64,7 +64,9 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   recorded_anew_.assign(problem.contacts.size(), 0);
   axes_.assign(problem.contacts.size(), kProblemAxes);
   turned_axes_ = 0;
-  lines_.assign(problem.contacts.size(), {});
+  lines_followed_ = 0;
+  last_line_.clear();
+  slip_ends_.clear();
   trail_ = {};
   verdict_ = {};
   ended_ = false;
@@ -232,7 +234,7 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
     if constexpr (kEncloses<Scalar>)
-      direction_name_ = status == System::Status::kRegular ? NameOfDirection(driven) : DirectionName();
+      line_ = status == System::Status::kRegular ? NameOfLine(driven) : LineName();
     if constexpr (kIsExact<Scalar>) {
       OuterState none = {}, &from = outer_states_.empty() ? none : outer_states_.back();
       from.regular |= status == System::Status::kRegular && from.sets == state_.sets;
@@ -272,19 +274,15 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
 // f += s df, a += s da; then the limit that was reached is met exactly, and so is abs(fF) = mu fN in NCF.
 template <class Scalar>
 void PublishedInSpace<Scalar>::Advance(const Step<Scalar>& step, bool zero) {
-  if (!ReturnsAlongTrail(step, zero)) {
-    for (int row = 0; row < problem_->rows(); ++row) {
-      if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
-      if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
-    }
-  }
+  MoveAlong(step, zero);
   if (!zero) LeaveCircles();
   MeetLimit(step.limiting, step.wants);
   for (int row = 0; row < problem_->rows(); ++row) {
     if (state_.sets[row] == IndexSet::kAtUpper) state_.f[row] = Bound(row);
   }
-  if (kEncloses<Scalar> && step.wants == IndexSet::kSeparating)
-    trail_ = {step.limiting, {}, state_.f, state_.a, lines_};
+  if (!kEncloses<Scalar>) return;
+  if (!zero) NoteSlipEnds();
+  if (step.wants == IndexSet::kSeparating) trail_ = {step.limiting, {}, state_.f, state_.a};
 }
 
 // Enclosures know it of forces that rest, too.
@@ -307,7 +305,7 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
     case IndexSet::kSticking:
       state_.a[row] = Scalar(0);
       if (state_.sets[row] == IndexSet::kAtUpper &&
-          (options_.policy.slip == Slip::kLiteral || IsOnLine(layout_.ContactOf(row))))
+          (options_.policy.slip == Slip::kLiteral || SlipEndsOnLine(layout_.ContactOf(row))))
         state_.a[row + 1] = Scalar(0);
       break;
     case IndexSet::kAtUpper:
@@ -489,7 +487,7 @@ void PublishedInSpace<Scalar>::LimitSlipping(Limit& limit, int row) const {
   const Vector& a = state_.a;
   const Vector& da = direction_.da();
   const bool rests = IsSurelyZero(a[row]) && IsSurelyZero(a[row + 1]);
-  const bool on_line = !rests && IsOnLine(layout_.ContactOf(row));
+  const bool on_line = !rests && SlipEndsOnLine(layout_.ContactOf(row));
   const bool redirects = options_.policy.slip == Slip::kRedirect;
   if (rests || (redirects && !on_line))
     return Offer(limit, Scalar(-a[row]), da[row], IndexSet::kSticking, scale_.rate);
@@ -612,48 +610,68 @@ Scalar PublishedInSpace<Scalar>::Bound(int row) const {
 
 // ---- Where the run has been -------------------------------------------------------------------
 
-// All that the force direction depends on; an axis up to its sign.
+// What the force direction depends on, an axis up to its sign, and the forces that rest: 0 if they are zero,
+// otherwise which of the lines that the run has followed this one is.
 template <class Scalar>
-auto PublishedInSpace<Scalar>::NameOfDirection(int driven) const -> DirectionName {
-  DirectionName name = {driven};
-  if (!layout_.IsNormal(driven)) name.push_back(axes_[layout_.ContactOf(driven)]);
-  for (const IndexSet set : state_.sets) name.push_back(static_cast<int>(set));
-  for (int row = 0; row < problem_->rows(); ++row) {
-    if (state_.sets[row] == IndexSet::kAtUpper) name.push_back(recorded_anew_[layout_.ContactOf(row)]);
+auto PublishedInSpace<Scalar>::NameOfLine(int driven) const -> LineName {
+  LineName name = {driven, layout_.IsNormal(driven) ? kProblemAxes : axes_[layout_.ContactOf(driven)]};
+  bool rests_at_zero = true;
+  for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
+    const int row = layout_.NormalRowOf(contact);
+    const bool moves = row == driven || state_.sets[row] == IndexSet::kClamped;
+    name.push_back(static_cast<int>(moves));
+    rests_at_zero &= moves || IsSurelyZero(state_.f[row]);
+    if (!layout_.HasFriction(row)) continue;
+    const bool follows = moves && state_.sets[row + 1] == IndexSet::kAtUpper;
+    name.push_back(follows ? recorded_anew_[contact] : -1);
+    for (int at = row + 1; at <= row + 2; ++at) {
+      const bool sticks = state_.sets[at] == IndexSet::kSticking;
+      name.push_back(static_cast<int>(sticks));
+      rests_at_zero &= follows || sticks || at == driven || IsSurelyZero(state_.f[at]);
+    }
   }
+  const bool goes_on =
+      last_line_.size() == name.size() + 1 && std::equal(name.begin(), name.end(), last_line_.begin());
+  name.push_back(rests_at_zero ? 0 : goes_on ? lines_followed_ : lines_followed_ + 1);
   return name;
 }
 
-// Whether aF of a contact in NCF is a multiple of its change.
+// Whether aF of a contact is zero at some point of the line.
 template <class Scalar>
-bool PublishedInSpace<Scalar>::IsOnLine(int contact) const {
-  return kEncloses<Scalar> && !direction_name_.empty() && lines_[contact] == direction_name_;
+bool PublishedInSpace<Scalar>::SlipEndsOnLine(int contact) const {
+  return kEncloses<Scalar> && !line_.empty() && slip_ends_.contains({contact, line_});
 }
 
-// Before a step. Whether it leads back to where a normal left C: there aN was zero, it has changed along the
-// one direction since, and is zero again. Then f and a are what they were.
 template <class Scalar>
-bool PublishedInSpace<Scalar>::ReturnsAlongTrail(const Step<Scalar>& step, bool zero) {
-  if (!kEncloses<Scalar> || zero) return false;
-  if (trail_.normal >= 0) {
-    if (trail_.name.empty()) trail_.name = direction_name_;
-    if (trail_.name.empty() || trail_.name != direction_name_) trail_ = {};
-  }
-  if (trail_.normal >= 0 && trail_.normal == step.limiting && step.wants == IndexSet::kClamped) {
-    state_.f = trail_.f;
-    state_.a = trail_.a;
-    lines_ = trail_.lines;
-    trail_ = {};
-    return true;
-  }
+void PublishedInSpace<Scalar>::NoteSlipEnds() {
   for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
     const int row = layout_.NormalRowOf(contact) + 1;
-    const bool slips = layout_.HasFriction(row - 1) && state_.sets[row] == IndexSet::kAtUpper;
-    const bool rests = slips && IsSurelyZero(state_.a[row]) && IsSurelyZero(state_.a[row + 1]);
-    const bool stays = slips && lines_[contact] == direction_name_;
-    lines_[contact] = rests || stays ? direction_name_ : DirectionName();
+    if (layout_.HasFriction(row - 1) && IsSurelyZero(state_.a[row]) && IsSurelyZero(state_.a[row + 1]))
+      slip_ends_.insert({contact, line_});
   }
-  return false;
+}
+
+// f += s df, a += s da. Where a normal left C, and comes back to aN = 0 along the line that the run took from
+// there, f and a are what they were.
+template <class Scalar>
+void PublishedInSpace<Scalar>::MoveAlong(const Step<Scalar>& step, bool zero) {
+  if (kEncloses<Scalar> && !zero) {
+    if (!std::equal(line_.begin(), line_.end(), last_line_.begin(), last_line_.end())) ++lines_followed_;
+    last_line_ = line_;
+    NoteSlipEnds();
+    if (line_.empty()) trail_ = {};
+    if (trail_.line.empty()) trail_.line = line_;
+    if (!line_.empty() && trail_.line == line_ && trail_.normal == step.limiting &&
+        step.wants == IndexSet::kClamped) {
+      state_.f = trail_.f;
+      state_.a = trail_.a;
+      return;
+    }
+  }
+  for (int row = 0; row < problem_->rows(); ++row) {
+    if (!IsSurelyZero(direction_.df()[row])) state_.f[row] += step.s * direction_.df()[row];
+    if (!IsSurelyZero(direction_.da()[row])) state_.a[row] += step.s * direction_.da()[row];
+  }
 }
 
 // ---- A state of the main loop -----------------------------------------------------------------

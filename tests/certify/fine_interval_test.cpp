@@ -57,8 +57,8 @@ TEST_CASE("fine interval: values and changes of random expressions are enclosed"
     ExactVector moves(kCoordinates);
     for (int i = 0; i < kCoordinates; ++i) {
       const Rational centre(random.Integer(-9, 9), 7), radius(1, random.Integer(3, 40));
-      moves[i] = radius * Rational(random.Integer(-4, 4), 4);
-      numbers.push_back({FineInterval::Coordinate(i, centre, radius), centre + moves[i], centre});
+      moves[i] = Rational(random.Integer(-4, 4), 4);
+      numbers.push_back({FineInterval::Side(i, centre, radius), centre + radius * moves[i], centre});
     }
     for (int step = 0; step < 8; ++step) {
       const OverBox x = numbers[random.Integer(0, static_cast<int>(numbers.size()) - 1)];
@@ -78,15 +78,30 @@ TEST_CASE("fine interval: values and changes of random expressions are enclosed"
 TEST_CASE("fine interval: a root is enclosed as narrowly as the bits allow, and so is its derivative") {
   const FineBits bits(100);
   const Rational centre(9, 4), radius(1, 100);
-  const FineInterval root = sqrt(FineInterval::Coordinate(0, centre, radius));
+  const FineInterval root = sqrt(FineInterval::Side(0, centre, radius));
   CHECK(Encloses(root, Rational(3, 2)));
   CHECK(root.Low() * root.Low() <= centre - radius);
   CHECK(root.High() * root.High() >= centre + radius);
-  CHECK(FineInterval::Over(root.slopes()[0].low) <= Rational(1, 3));
-  CHECK(FineInterval::Over(root.slopes()[0].high) >= Rational(1, 3));
+  CHECK(FineInterval::Over(root.slopes()[0].low) <= radius / 3);
+  CHECK(FineInterval::Over(root.slopes()[0].high) >= radius / 3);
+  const FineInterval at_once = sqrt(FineInterval::Variable(0, centre));
+  CHECK(FineInterval::Over(at_once.slopes()[0].low) <= Rational(1, 3));
+  CHECK(FineInterval::Over(at_once.slopes()[0].high) >= Rational(1, 3));
+  CHECK(at_once.High() - at_once.Low() <= 1 / Rational(mpz_class(1) << 100));
   const FineInterval two = sqrt(FineInterval(2));
   CHECK(two.High() - two.Low() <= 1 / Rational(mpz_class(1) << 100));
   CHECK(IsSurelyZero(sqrt(FineInterval(0))));
+}
+
+TEST_CASE("fine interval: over a box its ends grow with its size, not with what was made of it") {
+  const FineBits bits(200);
+  const Rational radius(1, 1000);
+  const FineInterval side = FineInterval::Side(0, 1, radius);
+  FineInterval x = side;
+  for (int k = 0; k < 30; ++k)
+    x = x * side - side * (x - FineInterval(1)) + (side - FineInterval(1)) / FineInterval(9);
+  CHECK(x.High() - x.Low() < 20 * radius);
+  CHECK((side - side).High() == 0);
 }
 
 TEST_CASE("fine interval: what the ends leave open throws") {

@@ -158,5 +158,41 @@ TEST_CASE("loops in space: a run that ends is not proved to loop") {
   }
 }
 
+// corpus/space/ray-under-slip-literal.json
+ExactProblem OfRay() {
+  ExactProblem problem = TwoContacts({{2, 0, 0, -1, 0, 1},
+                                      {0, 3, 0, 1, 0, 0},
+                                      {0, 0, 1, 0, 0, 0},
+                                      {-1, 1, 0, 4, 2, -1},
+                                      {0, 0, 0, 2, 4, 0},
+                                      {1, 0, 0, -1, 0, 2}},
+                                     {-2, -2, 2, 0, 2, 1});
+  for (auto& contact : problem.contacts) contact.mu = 2;
+  return problem;
+}
+
+TEST_CASE("rays in space: proved where nothing limits a step; altered, a fault in its place") {
+  const Policy literal = WithSlip(Slip::kLiteral), redirect = WithSlip(Slip::kRedirect);
+  const auto ray = ProveRayInSpace(OfRay(), literal, {});
+  REQUIRE(ray.has_value());
+  CHECK(ray->word.size() == 7);
+  CHECK_FALSE(FindRayFault(OfRay(), literal, *ray).has_value());
+  CHECK_FALSE(ProveRayInSpace(OfRay(), redirect, {}).has_value());    // solved
+  CHECK_FALSE(ProveRayInSpace(OfStates(), literal, {}).has_value());  // loops
+  const auto place = [](const RayInSpace& other) { return FindRayFault(OfRay(), WithSlip({}), other)->place; };
+  RayInSpace other = *ray;
+  other.word.pop_back();
+  CHECK(place(other) == "word");
+  other = *ray;
+  std::swap(other.word[1], other.word[2]);
+  CHECK(place(other) == "word[1]");
+  other = *ray;
+  other.word.push_back("N1 N1 C");
+  CHECK(place(other) == "word");
+  const RayInSpace ended = {384, {}};
+  CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word");
+  CHECK(FindRayFault(OfStates(), literal, ended)->place == "word");
+}
+
 }  // namespace
 }  // namespace stiction

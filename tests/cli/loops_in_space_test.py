@@ -139,6 +139,42 @@ class LoopsInSpace(cli.TestCase):
         for (what, _), accepted in zip(cases, self.verdicts([case for _, case in cases])):
             self.assertFalse(accepted, what)
 
+    def test_a_ray_is_accepted_and_refused_where_it_is_altered(self):
+        file = self.folder / "ray.json"
+        self.succeeds("certify", cli.ROOT / "corpus/space/ray-under-slip-literal.json", "--claim", "ray", "-o", file)
+        ray = json.loads(file.read_text())
+        kept = json.loads((cli.ROOT / "corpus/space/certificates/ray-under-slip-literal.ray.json").read_text())
+        self.assertEqual(ray, kept)
+        word = ray["witness"]["word"]
+
+        def with_(what, change):
+            other = copy.deepcopy(ray)
+            change(other["witness"], other["problem"])
+            return what, other
+
+        def put(key, value):
+            return with_(f"{key} {value}", lambda witness, _: witness.update({key: value}))
+
+        far = with_("b scaled", lambda _, problem: problem.update(b=[str(8 * Fraction(x)) for x in problem["b"]]))
+        self.assertEqual(self.verdicts([ray, put("bits", 128)[1], far[1]]), [True, True, True])
+        self.refused([
+            put("word", []), put("word", word[:-1]), put("word", [*word, word[-1]]),
+            put("word", [word[1], word[0], *word[2:]]), put("word", [*word[:-1], "F1 F1 CF"]), put("word", 7), put("word", [7]),
+            put("policy", "slip=redirect"), put("policy", "resume=round,slip=polygon"), put("policy", "nothing"),
+            put("bits", 8), put("bits", 5000), put("bits", "384"), put("kind", "states"),
+            with_("no bits", lambda witness, _: witness.pop("bits")),
+            *(with_(f"b[{k}]", lambda _, problem, k=k: problem["b"].__setitem__(k, "3")) for k in (0, 1)),
+            with_("mu", lambda _, problem: problem["contacts"][1].update(mu="1/9")),
+            with_("dimension", lambda _, problem: problem.update(dimension=2)),
+            with_("kind", lambda _, problem: problem["contacts"][0].update(kind="sliding", slip=["1", "0"])),
+        ], 18)
+
+    def test_a_run_that_ends_or_loops_has_no_ray(self):
+        ray, loop = (cli.ROOT / f"corpus/space/{name}.json" for name in ("ray-under-slip-literal", "cycle-under-both-slips"))
+        for problem, policy in ((ray, "slip=redirect"), (loop, "paper")):
+            done = cli.run("certify", problem, "--claim", "ray", "--policy", policy, "-o", self.folder / "none.json")
+            self.assertEqual(done.code, 3, done.out + done.err)
+
     def test_a_box_that_the_period_leaves_is_refused(self):
         """Around the state at start, and too small to hold the point that the period comes near to."""
         _, box = self.proofs("slip=redirect")
