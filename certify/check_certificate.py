@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True  # where it is installed, nothing is to be left b
 from certificate_reader import (Cost, brief, dot, elimination_operations, exact, fields, integer, items, long_times, main,
                                 need, one_of, planar_contacts, product_operations, reduced_operations,
                                 require_cheap_product, rows, times, vector)
-from check_runs import CYCLE, RAY, check_runs
+from check_runs import CYCLE, ENDLESS, RAY, check_runs
 
 # --- A and b: each check returns the facts to print ---------------------------------
 
@@ -709,6 +709,7 @@ CLAIMS = {  # the keys of the witness, and what checks it
     "unsafe": ("word determinant", check_unsafe),
     "cycle": CYCLE,
     "ray": RAY,
+    "endless": ENDLESS,
     "counterexample": ("L D f a runs", check_counterexample),
 }
 

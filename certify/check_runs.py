@@ -452,6 +452,12 @@ def check_ray(problem, witness):
     return check_runs_in_space.check_ray(problem, witness, policy)
 
 
+def check_endless(problem, witness):
+    """In space: a run that never ends, and repeats no state."""
+    policy = read_policy(witness["policy"], "$.witness.policy", check_runs_in_space.SWITCHES)
+    return check_runs_in_space.check_loop(problem, witness, policy, repeats=False)
+
+
 def check_runs_alone(problem, witness):
     return f"its runs only, {check_runs(problem, witness)}"
 
@@ -460,8 +466,9 @@ def check_runs_alone(problem, witness):
 
 CYCLE = (" | ".join(["runs", *check_runs_in_space.KEYS]), check_cycle)
 RAY = (check_runs_in_space.RAY_KEYS, check_ray)
-CLAIMS = {"cycle": CYCLE, "ray": RAY, "counterexample": ("L D f a runs", check_runs_alone)}
+ENDLESS = (check_runs_in_space.BOX_KEYS, check_endless)
+CLAIMS = {"cycle": CYCLE, "ray": RAY, "endless": ENDLESS, "counterexample": ("L D f a runs", check_runs_alone)}
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Run the published algorithm again, as stiction certificates say that it runs.",
-                  "claims: cycle, ray, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))
+                  "claims: cycle, ray, endless, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))

@@ -38,7 +38,8 @@ SWITCHES = {  # the value of the reference policy `paper` first; those of the pl
     "slip": ("literal", "redirect"),
 }
 RAY_KEYS = "policy bits word"
-KEYS = ("policy kind bits start period word", "policy kind bits start period word charts centre radii")
+BOX_KEYS = "policy kind bits start period word charts centre radii"
+KEYS = ("policy kind bits start period word", BOX_KEYS)
 
 
 class Unsure(Exception):
@@ -817,25 +818,42 @@ def image(run, witness, values, charts):
     return list(ends.coordinates(charts)), ends, begins
 
 
-def check_box(run, witness):
-    """The period maps the box into itself: F(x) is in F(c) + F' (x - c)."""
-    charts, centre, radii = read_box(run, witness)
-    size, unit = len(centre), 1 << Number.bits
-    middle, *_ = image(run, witness, [Number.around(x) for x in centre], charts)
-    box = [Number.side(m, size, x, r) for m, (x, r) in enumerate(zip(centre, radii))]
-    found, ends, begins = image(run, witness, box, charts)
-    kept = 0
-    for m, (row, i) in enumerate(run.memory()):
-        slopes = found[m].slopes or [(0, 0)] * size
-        if row is None:
-            untouched = ends.d_name[i] == begins.d_name[i]
-        else:
-            untouched = (found[m].low, found[m].high, slopes) == (box[m].low, box[m].high, box[m].slopes)
-        kept += untouched
-        reach = distance(centre[m], (middle[m].low, middle[m].high)) + sum(
-            Fraction(max(map(abs, ends_of)), unit) for ends_of in slopes)
-        need(untouched or reach <= radii[m], f"$.witness.radii[{m}]", radii[m], reach, ", as far as the period leads")
-    return f"a box of {size} coordinates, {kept} untouched"
+class Box:
+    """The box of a certificate, in which the run stands, and which the period maps into itself."""
+
+    def __init__(self, run, witness):
+        self.run, self.witness = run, witness
+        self.charts, self.centre, self.radii = read_box(run, witness)
+        size, unit = len(self.centre), 1 << Number.bits
+        middle, *_ = image(run, witness, [Number.around(x) for x in self.centre], self.charts)
+        box = [Number.side(m, size, x, r) for m, (x, r) in enumerate(zip(self.centre, self.radii))]
+        found, ends, begins = image(run, witness, box, self.charts)
+        self.slopes = [x.slopes or [(0, 0)] * size for x in found]
+        self.moving, self.spread = [], {}
+        for m, (row, i) in enumerate(run.memory()):
+            if row is None:
+                untouched = ends.d_name[i] == begins.d_name[i]
+            else:
+                untouched = (found[m].low, found[m].high, self.slopes[m]) == (box[m].low, box[m].high, box[m].slopes)
+            if untouched:
+                continue
+            self.moving.append(m)
+            self.spread[m] = sum(Fraction(max(map(abs, slope)), unit) for slope in self.slopes[m])
+            reach = distance(self.centre[m], (middle[m].low, middle[m].high)) + self.spread[m]  # F(c) + F' (x - c)
+            need(reach <= self.radii[m], f"$.witness.radii[{m}]", self.radii[m], reach, ", as far as the period leads")
+
+    def __str__(self):
+        return f"a box of {len(self.radii)} coordinates, {len(self.radii) - len(self.moving)} untouched"
+
+    def must_not_repeat(self):
+        """The period contracts, takes different points to different ones, and moves the first."""
+        for m in self.moving:
+            need(self.spread[m] < self.radii[m], f"$.witness.radii[{m}]", self.radii[m], f"more than {self.spread[m]}")
+        solve([[Number(*self.slopes[m][k]) for k in self.moving] + [ZERO] for m in self.moving])  # so it is regular
+        first = list(self.run.coordinates(self.charts))
+        then, *_ = image(self.run, self.witness, first, self.charts)
+        apart = [m for m in self.moving if first[m].high < then[m].low or then[m].high < first[m].low]
+        need(apart, "$.witness.start", self.witness["start"], "a state that the period surely moves")
 
 
 def begin(problem, witness, policy, coordinates=0):
@@ -867,9 +885,9 @@ def check_ray(problem, witness, policy):
     return f"in space, after {run.on_step.done} steps"
 
 
-def check_loop(problem, witness, policy):
-    """The facts to print of a loop in space."""
-    kind = one_of(witness["kind"], "$.witness.kind", ("states", "box"))
+def check_loop(problem, witness, policy, repeats=True):
+    """The facts to print of a loop in space; without `repeats`, of one that repeats no state."""
+    kind = one_of(witness["kind"], "$.witness.kind", ("states", "box") if repeats else ("box",))
     start = integer(witness["start"], "$.witness.start", 0, 1 << 31)
     period = integer(witness["period"], "$.witness.period", 1, 1 << 31)
     need((kind == "box") == ("radii" in witness), "$.witness", kind, "charts, centre and radii of a box only")
@@ -879,10 +897,12 @@ def check_loop(problem, witness, policy):
     try:
         run.run_until(start)
         need(run.drives == start, "$.witness.start", start, f"{run.drives}: no outer state after {start} drives")
-        how = check_states(run, witness) if kind == "states" else check_box(run, witness)
+        how = check_states(run, witness) if kind == "states" else Box(run, witness)
+        if not repeats:
+            how.must_not_repeat()
     except Unsure as unsure:
         refuse_unsure(run, unsure)
     except End as end:
         need(False, "$.witness.word", str(end), "a run that does not end")
     by = f", by the {' and the '.join(sorted(run.known))}" if run.known else ""
-    return f"in space, {how}, start {start}, period {period}{by}"
+    return f"in space, {how}, start {start}, period {period}{by}{'' if repeats else '; no state recurs'}"

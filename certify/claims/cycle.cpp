@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of the published algorithm that repeat a state, or in space stay in a box for ever: `cycle`; that end in
-// a step which nothing limits: `ray`, in space; and `counterexample`, where A is definite and there is a
-// solution besides.
+// a step which nothing limits: `ray`, in space; that repeat no state: `endless`, in space; and
+// `counterexample`, where A is definite and there is a solution besides.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,21 +79,34 @@ Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names
 
 namespace {
 
-// Of the first of the policies that is proved to loop.
-Json LoopInSpaceToJson(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+Json LoopToJson(const Policy& policy, const LoopInSpace& loop) {
+  Json witness = {{"policy", PolicyName(policy)},
+                  {"kind", loop.IsBox() ? "box" : "states"},
+                  {"bits", loop.bits},
+                  {"start", loop.start},
+                  {"period", loop.period},
+                  {"word", loop.word}};
+  if (loop.IsBox()) {
+    witness["charts"] = loop.charts;
+    witness["centre"] = VectorToJson(loop.centre);
+    witness["radii"] = VectorToJson(loop.radii);
+  }
+  return witness;
+}
+
+Json RayToJson(const Policy& policy, const RayInSpace& ray) {
+  return {{"policy", PolicyName(policy)}, {"bits", ray.bits}, {"word", ray.word}};
+}
+
+// Of the first of the policies of which it is proved.
+template <class Prove, class ToJson>
+Json CertificateInSpace(std::string_view claim, const ExactProblem& problem,
+                        const std::vector<Policy>& policies, const Limits& limits, Prove prove,
+                        ToJson to_json) {
   for (const Policy& policy : policies) {
     if (!PublishedReadsInSpace(policy)) continue;
-    const auto loop = ProveLoopInSpace(problem, policy, limits);
-    if (!loop) continue;
-    Json witness = {{"policy", PolicyName(policy)}, {"kind", loop->IsBox() ? "box" : "states"},
-                    {"bits", loop->bits},           {"start", loop->start},
-                    {"period", loop->period},       {"word", loop->word}};
-    if (loop->IsBox()) {
-      witness["charts"] = loop->charts;
-      witness["centre"] = VectorToJson(loop->centre);
-      witness["radii"] = VectorToJson(loop->radii);
-    }
-    return MakeCertificate("cycle", problem, std::move(witness));
+    if (const auto proof = prove(problem, policy, limits))
+      return MakeCertificate(claim, problem, to_json(policy, *proof));
   }
   return nullptr;
 }
@@ -101,19 +114,10 @@ Json LoopInSpaceToJson(const ExactProblem& problem, const std::vector<Policy>& p
 }  // namespace
 
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
-  if (problem.dimension == 3) return LoopInSpaceToJson(problem, policies, limits);
+  if (problem.dimension == 3)
+    return CertificateInSpace("cycle", problem, policies, limits, ProveLoopInSpace, LoopToJson);
   const Json runs = CyclesToJson(problem, policies, limits);
   return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
-}
-
-Json RayCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
-  for (const Policy& policy : policies) {
-    if (!PublishedReadsInSpace(policy)) continue;
-    if (const auto ray = ProveRayInSpace(problem, policy, limits))
-      return MakeCertificate("ray", problem,
-                             {{"policy", PolicyName(policy)}, {"bits", ray->bits}, {"word", ray->word}});
-  }
-  return nullptr;
 }
 
 Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
@@ -326,9 +330,10 @@ void RequireRunInSpace(const ExactProblem& problem) {
   }
 }
 
-Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness) {
+Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness, bool endless) {
   RequireRunInSpace(problem);
-  const LoopInSpace loop = ReadLoop(problem, witness);
+  LoopInSpace loop = ReadLoop(problem, witness);
+  loop.endless = endless;
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   const auto steps = static_cast<double>(loop.word.size() + 1) * static_cast<double>(1 + loop.charts.size());
   Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * loop.bits).LongestRow(problem);
@@ -354,9 +359,13 @@ Json CheckRay(const ExactProblem& problem, const Json& witness) {
 }
 
 Json CheckCycle(const ExactProblem& problem, const Json& witness) {
-  if (witness.is_object() && witness.contains("word")) return CheckLoopInSpace(problem, witness);
+  if (witness.is_object() && witness.contains("word")) return CheckLoopInSpace(problem, witness, false);
   RequireKeys(witness, "witness", {"runs"});
   return CheckRuns(problem, witness);
+}
+
+Json CheckEndless(const ExactProblem& problem, const Json& witness) {
+  return CheckLoopInSpace(problem, witness, true);
 }
 
 Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
@@ -372,7 +381,10 @@ Json OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
   return CycleCertificate(problem, o.policies, o.limits);
 }
 Json OfRay(const ExactProblem& problem, const ClaimOptions& o) {
-  return RayCertificate(problem, o.policies, o.limits);
+  return CertificateInSpace("ray", problem, o.policies, o.limits, ProveRayInSpace, RayToJson);
+}
+Json OfEndless(const ExactProblem& problem, const ClaimOptions& o) {
+  return CertificateInSpace("endless", problem, o.policies, o.limits, ProveEndlessInSpace, LoopToJson);
 }
 Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
   return CounterexampleCertificate(problem, o.policies, o.limits);
@@ -388,8 +400,7 @@ void RequireLoops(const ExactProblem& problem, const std::string& source) {
 }
 
 void RequireLoopsInSpace(const ExactProblem& problem, const std::string& source) {
-  if (problem.dimension != 3)
-    throw InputError(source, "dimension", "2", "3: in the plane `solve` tells of a ray");
+  if (problem.dimension != 3) throw InputError(source, "dimension", "2", "3: this is a claim of runs in space");
   RequireLoops(problem, source);
 }
 
@@ -400,6 +411,8 @@ ClaimRows CycleClaims() {
             RequireLoops},
       Claim{"ray", CheckRay, "in space the published algorithm comes to a step that nothing limits", OfRay,
             RequireLoopsInSpace},
+      Claim{"endless", CheckEndless, "in space the published algorithm never ends, and repeats no state",
+            OfEndless, RequireLoopsInSpace},
       Claim{"counterexample", CheckCounterexample,
             "it does, though A is definite and there is a solution: all in one file", OfCounterexample,
             RequirePlanar}};

@@ -537,6 +537,45 @@ std::optional<LoopFault> FaultOfPlace(const FineProblem& problem, const StateInS
   return std::nullopt;
 }
 
+FineInterval SlopeOf(const FineInterval& x, int k) {
+  return static_cast<std::size_t>(k) < x.slopes().size() ? FineInterval(x.slopes()[k]) : FineInterval();
+}
+
+// Whether every matrix of derivatives in the box is regular, by the coordinates that move.
+bool IsInjective(const Image& image, const std::vector<int>& moving) {
+  const int size = static_cast<int>(moving.size());
+  Elimination<FineInterval> slopes;
+  slopes.Resize(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int k = 0; k < size; ++k) slopes(i, k) = SlopeOf(image.x[moving[i]], moving[k]);
+  }
+  slopes.Run(size, size, size);
+  return slopes.rank() == size;
+}
+
+// Where a state could recur: `image` is what the period makes of the box.
+std::optional<LoopFault> FaultOfRecurrence(const FineProblem& problem, const StateInSpace& state,
+                                           const LoopInSpace& loop, const Image& image) {
+  std::vector<int> moving;
+  for (int i = 0; i < loop.radii.size(); ++i) {
+    if (image.untouched[i]) continue;
+    moving.push_back(i);
+    Rational spread = 0;
+    for (int k = 0; k < loop.radii.size(); ++k) spread += SteepestOf(image.x[i], k);
+    if (spread >= loop.radii[i])
+      return LoopFault{fmt::format("radii[{}]", i), ToString(loop.radii[i]), "a period that contracts"};
+  }
+  if (!IsInjective(image, moving)) Unsure<FineInterval>::Refuse();
+  const Coordinates first = problem.memory().CoordinatesOf(state, loop.charts);
+  const Image then = problem.ImageOf(state, first, loop.charts, loop.period, loop.word.size());
+  const auto moves = [&](int i) {
+    const FineEnds &x = first[i].ends(), &y = then.x[i].ends();
+    return x.high < y.low || y.high < x.low;
+  };
+  if (std::ranges::any_of(moving, moves)) return std::nullopt;
+  return LoopFault{"start", std::to_string(loop.start), "a state that the period surely moves"};
+}
+
 std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk, const LoopInSpace& loop) {
   const StateInSpace state = walk.state();
   if (auto fault = FaultOfPlace(problem, state, loop)) return fault;
@@ -550,13 +589,14 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
   if (const auto leaves = LeavesBox(middle, image, loop.centre, loop.radii))
     return LoopFault{fmt::format("radii[{}]", leaves->first), ToString(loop.radii[leaves->first]),
                      fmt::format("{:.3g}, as far as the period leads", ToDouble(leaves->second))};
-  return std::nullopt;
+  return loop.endless ? FaultOfRecurrence(problem, state, loop, image) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
                                        const LoopInSpace& loop) {
+  if (loop.endless && !loop.IsBox()) return LoopFault{"kind", "states", "box"};
   const FineBits bits(loop.bits);
   const FineProblem fine(problem, policy, {});
   Walk walk = fine.Begin();
@@ -591,6 +631,15 @@ std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const P
     if (hopeless || limits.Stopped() || (effort.bits >= kBitsForAll && !contracts)) break;
   }
   return std::nullopt;
+}
+
+std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
+                                               const Limits& limits) {
+  std::optional<LoopInSpace> loop = ProveLoopInSpace(problem, policy, limits);
+  if (!loop || !loop->IsBox()) return std::nullopt;
+  loop->endless = true;
+  if (FindLoopFault(problem, policy, *loop)) return std::nullopt;
+  return loop;
 }
 
 std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy,

@@ -11,6 +11,9 @@
 //            abs(F(c) - c)_i + sum_j sup abs(dF_i / dx_j) r_j <= r_i
 //
 //          keeps it in the box for ever. A coordinate that the period leaves untouched is a parameter.
+// Endless  No state recurs, if besides F contracts, sum_j sup abs(dF_i / dx_j) r_j < r_i, takes different
+// points
+//          of the box to different ones, and moves the first.
 // Rays     After the last step something is driven, and no limit is met, however far.
 //
 // certify/certificates.md, Loops in space, says what stands in a certificate, and has the proof.
@@ -38,6 +41,7 @@ struct LoopInSpace {
   // Of a box, a number for each coordinate; empty for states.
   std::vector<int> charts;  // 0: a force; 1, -1: a direction, or its opposite, by the tangent of half its angle
   ExactVector centre, radii;
+  bool endless = false;  // whether it says that no state recurs
 
   bool IsBox() const { return radii.size() > 0; }
 };
@@ -58,6 +62,9 @@ struct LoopFault {
 // Empty if the run ends, or if no proof was found. What is returned has no fault.
 std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
                                             const Limits& limits);
+// The same, of a box in which no state recurs.
+std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
+                                               const Limits& limits);
 std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
                                        const LoopInSpace& loop);
 

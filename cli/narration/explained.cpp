@@ -148,7 +148,8 @@ Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::s
     try {
       claim.require(problem, o.file);
       const Json certificate = claim.certify(problem, options);
-      const bool of_runs = claim.name == "cycle" || claim.name == "ray" || claim.name == "counterexample";
+      constexpr std::string_view kOfRuns[] = {"cycle", "ray", "endless", "counterexample"};
+      const bool of_runs = std::ranges::find(kOfRuns, claim.name) != std::end(kOfRuns);
       claims.push_back(
           {{"claim", claim.name},
            {"meaning", claim.meaning},

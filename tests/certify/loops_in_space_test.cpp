@@ -158,6 +158,21 @@ TEST_CASE("loops in space: a run that ends is not proved to loop") {
   }
 }
 
+TEST_CASE(
+    "loops in space: no state recurs where the period moves the first, and different points to different "
+    "ones") {
+  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
+    const auto loop = ProveEndlessInSpace(OfBoxes(), WithSlip(slip), {});
+    REQUIRE(loop.has_value());
+    CHECK(loop->endless);
+    CHECK(FaultyPlace(OfBoxes(), WithSlip(slip), *loop).empty());
+    CHECK_FALSE(ProveEndlessInSpace(OfStates(), WithSlip(slip), {}).has_value());
+    LoopInSpace other = Proof(OfStates(), WithSlip(slip));
+    other.endless = true;
+    CHECK(FaultyPlace(OfStates(), WithSlip(slip), other) == "kind");
+  }
+}
+
 // corpus/space/ray-under-slip-literal.json
 ExactProblem OfRay() {
   ExactProblem problem = TwoContacts({{2, 0, 0, -1, 0, 1},
@@ -190,7 +205,7 @@ TEST_CASE("rays in space: proved where nothing limits a step; altered, a fault i
   other.word.push_back("N1 N1 C");
   CHECK(place(other) == "word");
   const RayInSpace ended = {384, {}};
-  CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word");
+  CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word[3]");
   CHECK(FindRayFault(OfStates(), literal, ended)->place == "word");
 }
 

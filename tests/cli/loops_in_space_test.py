@@ -169,24 +169,56 @@ class LoopsInSpace(cli.TestCase):
             with_("kind", lambda _, problem: problem["contacts"][0].update(kind="sliding", slip=["1", "0"])),
         ], 18)
 
+    def test_no_state_twice(self):
+        """Of the corpus; refused where it is altered, and where a state is the fixed point, or recurs."""
+        problem = cli.ROOT / "corpus/space/no-state-twice.json"
+        for policy, name in (("paper", ""), ("slip=redirect", ".slip-redirect")):
+            file = self.folder / "endless.json"
+            self.succeeds("certify", problem, "--claim", "endless", "--policy", policy, "-o", file)
+            endless = json.loads(file.read_text())
+            kept = cli.ROOT / f"corpus/space/certificates/no-state-twice.endless{name}.json"
+            self.assertEqual(endless, json.loads(kept.read_text()))
+        late = copy.deepcopy(endless)  # so late that the period moves it by less than the bits tell
+        witness = late["witness"]
+        turns = 40
+        late["witness"]["start"] += turns * witness["period"]
+        steps = witness["word"]
+        once = self.steps_of_a_period(endless)
+        late["witness"]["word"] = steps + turns * steps[-once:]
+        looping = self.certificate(cli.ROOT / "corpus/space/cycle-under-both-slips.json", policy)
+        looping["claim"] = "endless"
+        self.assertEqual(self.verdicts([endless, {**late, "claim": "cycle"}]), [True, True])
+        self.refused([("too late to be told", late), ("a state recurs", looping), *self.altered(endless), *self.altered_box(endless)], 20)
+        self.assertIn("witness.start", cli.run("check", self.folder / "0.json").out)
+
+    def steps_of_a_period(self, proof):
+        """How many of the steps of the word are of its last period."""
+        run = self.run_of(proof)
+        run.run_until(proof["witness"]["start"])
+        return len(proof["witness"]["word"]) - run.on_step.done
+
     def test_a_run_that_ends_or_loops_has_no_ray(self):
         ray, loop = (cli.ROOT / f"corpus/space/{name}.json" for name in ("ray-under-slip-literal", "cycle-under-both-slips"))
         for problem, policy in ((ray, "slip=redirect"), (loop, "paper")):
             done = cli.run("certify", problem, "--claim", "ray", "--policy", policy, "-o", self.folder / "none.json")
             self.assertEqual(done.code, 3, done.out + done.err)
 
-    def test_a_box_that_the_period_leaves_is_refused(self):
-        """Around the state at start, and too small to hold the point that the period comes near to."""
-        _, box = self.proofs("slip=redirect")
+    def run_of(self, proof):
+        """The run of a certificate, of the independent checker."""
         sys.path.insert(0, str(cli.ROOT / "certify"))
         from certificate_reader import read_problem
         from check_runs import read_policy
-        from check_runs_in_space import SWITCHES, Number, Run, Space
-        witness = box["witness"]
+        from check_runs_in_space import SWITCHES, Number, Run, Space, Stated
+        witness = proof["witness"]
         Number.bits = witness["bits"]
-        run = Run(Space(read_problem(box["problem"])), read_policy(witness["policy"], switches=SWITCHES))
+        return Run(Space(read_problem(proof["problem"])), read_policy(witness["policy"], switches=SWITCHES), Stated(witness["word"]))
+
+    def test_a_box_that_the_period_leaves_is_refused(self):
+        """Around the state at start, and too small to hold the point that the period comes near to."""
+        _, box = self.proofs("slip=redirect")
+        witness, run = box["witness"], self.run_of(box)
         run.run_until(witness["start"])
-        here = [Fraction(x.low + x.high, 2 << Number.bits) for x in run.coordinates(witness["charts"])]
+        here = [Fraction(x.low + x.high, 2 << witness["bits"]) for x in run.coordinates(witness["charts"])]
         apart = [abs(x - Fraction(c)) for x, c in zip(here, witness["centre"])]
         self.assertGreater(min(apart), 0)
         witness["centre"], witness["radii"] = list(map(str, here)), [str(x / 4) for x in apart]
