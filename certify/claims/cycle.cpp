@@ -100,9 +100,8 @@ Json RayToJson(const Policy& policy, const RayInSpace& ray) {
 
 // Of the first of the policies of which it is proved.
 template <class Prove, class ToJson>
-Json CertificateInSpace(std::string_view claim, const ExactProblem& problem,
-                        const std::vector<Policy>& policies, const Limits& limits, Prove prove,
-                        ToJson to_json) {
+Json CertificateInSpace(const char* claim, const ExactProblem& problem, const std::vector<Policy>& policies,
+                        const Limits& limits, Prove prove, ToJson to_json) {
   for (const Policy& policy : policies) {
     if (!PublishedReadsInSpace(policy)) continue;
     if (const auto proof = prove(problem, policy, limits))
