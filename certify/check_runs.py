@@ -471,4 +471,5 @@ CLAIMS = {"cycle": CYCLE, "ray": RAY, "endless": ENDLESS, "counterexample": ("L 
 
 if __name__ == "__main__":
     sys.exit(main(CLAIMS, "Run the published algorithm again, as stiction certificates say that it runs.",
-                  "claims: cycle, ray, endless, and the runs of a counterexample; certify/certificates.md says what they mean.\n"))
+                  "claims: cycle, ray, endless, and the runs of a counterexample; certify/certificates.md says what they "
+                  "mean.\n"))

@@ -212,7 +212,8 @@ def solve(M):
 # --- Axes in a tangent plane ---------------------------------------------------------
 
 # A unit vector and a name: of equal names the vectors are equal, up to their sign.
-fresh = count()
+FIRST_NAME = 1 << 20  # so that no number of a contact is a name
+fresh = count(FIRST_NAME)
 
 
 def axis_along(u):
@@ -274,6 +275,8 @@ class Run:
         self.d, self.d_name = [None] * contacts, [None] * contacts
         self.turned = [False] * contacts  # away: is to be driven anew against its acceleration
         self.on_circle = [False] * contacts  # abs(fF) = mu fN is known, though the contact is not in NCF
+        self.force = [None] * contacts  # (d, name) of a friction that is along a direction which was once named
+        self.turnings = None  # a list: contacts turn away also where it is not told, (aF beside d, contact, line)
         self.slip_ends = set()  # (contact, line): there is a point of the line with aF = 0
         self.trail, self.last_line, self.followed = None, None, 0
         self.known = set()  # which of the two has told a zero
@@ -329,7 +332,7 @@ class Run:
             if row is None:
                 over = (one() + x * x).inverse()
                 d = [(one() - x * x) * over, (x + x) * over]
-                other.d[i], other.d_name[i] = d if chart > 0 else opposite(d), next(fresh)
+                other.d[i], other.d_name[i] = other.force[i] = d if chart > 0 else opposite(d), next(fresh)
             else:
                 f[row] = x
         for i, row in enumerate(self.space.first):
@@ -374,11 +377,19 @@ class Run:
         fF = self.tangent(self.f, i)
         if not vanishes(fF):
             self.F[i], self.d[i] = "none", None
-            length, axis, name = axis_along(fF)
+            length, axis, name = self.along_force(i)
             self.drive("F", i, axis, name, goal="zero", gap=length)
             if self.policy["rezero"] == "rescan" or not self.violated("F", i):
                 return
         self.establish(i)
+
+    def along_force(self, i):
+        """(length, axis, name) of fF, which is not zero."""
+        fF = self.tangent(self.f, i)
+        if self.force[i] is None:
+            return axis_along(fF)
+        axis, name = self.force[i]
+        return inner(axis, fF), axis, name
 
     def pick(self, fails):
         contacts = range(len(self.N))
@@ -459,7 +470,7 @@ class Run:
 
     def meet_driven(self, i, into):
         """A friction that was driven enters a set, which takes its mark away unless it is half."""
-        self.F[i] = into
+        self.F[i], self.force[i] = into, None
         if into == "CF":
             row = self.space.first[i]
             self.a[row + 1] = self.a[row + 2] = ZERO
@@ -559,7 +570,7 @@ class Run:
             if limiting == "driven":
                 self.move_driven(letter, i, into)
             else:
-                self.move(limiting, k, into, letter, i, left, zero_before, zero)
+                self.move(limiting, k, into, letter, i, left, zero_before, zero, line)
             if not zero:
                 self.note_slip_ends(line)
             what = letter if limiting == "driven" else limiting
@@ -685,9 +696,13 @@ class Run:
         elif into == "none":
             self.f[row + 1] = self.f[row + 2] = ZERO
         elif into == "NCF":
-            fF = self.tangent(self.f, i)
-            _, self.d[i], d_name = axis_along(self.tangent(df, i) if vanishes(fF) else fF)
-            self.d_name[i] = next(fresh) if type(d_name) is str else d_name
+            fF, name = self.tangent(self.f, i), axis_name
+            if limiting == "driven" and kept is None:  # from fF = 0 along the axis
+                self.d[i] = self.tangent(df, i)
+            else:
+                _, self.d[i], name = axis_along(self.tangent(df, i) if vanishes(fF) else fF)
+            self.d_name[i] = next(fresh) if type(name) is str else name
+            self.force[i] = self.d[i], name
         elif limiting == "driven":
             if kept:
                 self.a[row + 1] = self.a[row + 2] = ZERO
@@ -709,13 +724,15 @@ class Run:
         elif into == "none":
             self.F[i] = "none"
         elif into == "CF" and self.F[i] == "none":
-            self.F[i] = "half"
+            self.F[i], self.force[i] = "half", None
         else:
             self.F[i], self.turned[i] = into, False
+            if into == "CF":
+                self.force[i] = None
 
-    def move(self, what, k, into, letter, i, left, zero_before, zero):
+    def move(self, what, k, into, letter, i, left, zero_before, zero, line):
         """The limiting variable enters the set it wants into, turns away, or is given up."""
-        if what == "F" and self.F[k] == "NCF" and self.policy["slip"] == "redirect" and self.turns_away(k):
+        if what == "F" and self.F[k] == "NCF" and self.policy["slip"] == "redirect" and self.turns_away(k, line):
             left[what, k], self.turned[k] = "NCF", True
             self.rest(k)
             return
@@ -733,17 +750,21 @@ class Run:
         else:
             left[what, k], self.F[k] = self.F[k], into
             if into == "CF":
-                self.on_circle[k], self.d[k] = True, None
+                self.on_circle[k], self.d[k], self.force[k] = True, None, None
 
     def rest(self, i):
         """A friction enters none. From NCF its force rests on the circle."""
         self.on_circle[i] = self.on_circle[i] or self.F[i] == "NCF"
         self.F[i], self.d[i] = "none", None
 
-    def turns_away(self, i):
+    def turns_away(self, i, line):
         """At d.aF = 0: whether aF is not zero."""
         aF, row = self.tangent(self.a, i), self.space.first[i]
-        if not vanishes(aF) and sign(self.d[i][0] * aF[1] - self.d[i][1] * aF[0]) != 0:
+        aside = self.d[i][0] * aF[1] - self.d[i][1] * aF[0]
+        if self.turnings is not None and not (vanishes(aF) or aside.is_zero()):
+            self.turnings.append((aside, i, line))
+            return True
+        if not vanishes(aF) and sign(aside) != 0:
             return True
         self.a[row + 1] = self.a[row + 2] = ZERO
         return False
@@ -808,14 +829,47 @@ def read_box(run, witness):
     return charts, centre, radii
 
 
+def take_period(walk, run, witness):
+    """One period more, of the steps that are stated, to the sets of `run`, which stands at the start."""
+    end = walk.drives + witness["period"]
+    walk.on_step = Stated(witness["word"], run.on_step.done)
+    walk.run_until(end)
+    need(walk.drives == end, "$.witness.period", witness["period"], "drives to a state of the main loop")
+    same_state_again(walk, run)
+    walk.on_step.must_be_done()
+
+
 def image(run, witness, values, charts):
-    """Of coordinates: what the period makes of them; (coordinates, run, run at the start)."""
-    begins = run.standing(values, charts, Stated(witness["word"], run.on_step.done))
+    """Of coordinates: what the period makes of them, if contacts turn away where they may; (coordinates, run, run at
+    the start)."""
+    begins = run.standing(values, charts, None)
+    begins.turnings = []
     ends = begins.copy()
-    ends.run_until(witness["period"])
-    same_state_again(ends, run)
-    ends.on_step.must_be_done()
+    take_period(ends, run, witness)
     return list(ends.coordinates(charts)), ends, begins
+
+
+def turnings_that_end(run, witness, values, charts):
+    """Of each contact that turns away in a period: whether its aF were zero there, if every period were like the one
+    before. What one period names the next names again, so many names later: are there lines of which that shows that
+    they are one, and has it a point with aF = 0?"""
+    walk = run.standing(values, charts, None)
+    walk.turnings, marks, counts = [], [next(fresh)], [0]
+    for _ in range(3):
+        take_period(walk, run, witness)
+        marks.append(next(fresh))
+        counts.append(len(walk.turnings))
+    apart = marks[1] - marks[0]
+    if any(y - x != apart for x, y in zip(marks, marks[1:])):
+        raise Unsure("whether two periods name the same")
+
+    def alike(name):
+        if type(name) is tuple:
+            return tuple(map(alike, name))
+        return -1 - (name - marks[0]) % apart if type(name) is int and name >= marks[0] else name
+
+    ends = set(map(alike, walk.slip_ends))
+    return [line[1] == 0 and alike((i, line)) in ends for _, i, line in walk.turnings[counts[2]:]]
 
 
 class Box:
@@ -828,6 +882,7 @@ class Box:
         middle, *_ = image(run, witness, [Number.around(x) for x in self.centre], self.charts)
         box = [Number.side(m, size, x, r) for m, (x, r) in enumerate(zip(self.centre, self.radii))]
         found, ends, begins = image(run, witness, box, self.charts)
+        self.turnings = [aside for aside, *_ in ends.turnings]
         self.slopes = [x.slopes or [(0, 0)] * size for x in found]
         self.moving, self.spread = [], {}
         for m, (row, i) in enumerate(run.memory()):
@@ -841,9 +896,28 @@ class Box:
             self.spread[m] = sum(Fraction(max(map(abs, slope)), unit) for slope in self.slopes[m])
             reach = distance(self.centre[m], (middle[m].low, middle[m].high)) + self.spread[m]  # F(c) + F' (x - c)
             need(reach <= self.radii[m], f"$.witness.radii[{m}]", self.radii[m], reach, ", as far as the period leads")
+        if witness["kind"] == "punctured":
+            self.must_turn_away()
+        elif any(x.low <= 0 <= x.high for x in self.turnings):
+            raise Unsure("whether a contact turns away")
 
     def __str__(self):
-        return f"a box of {len(self.radii)} coordinates, {len(self.radii) - len(self.moving)} untouched"
+        kind = "punctured box" if self.witness["kind"] == "punctured" else "box"
+        return f"a {kind} of {len(self.radii)} coordinates, {len(self.radii) - len(self.moving)} untouched"
+
+    def must_turn_away(self):
+        """But at the fixed point, to which the run does not come."""
+        need(len(self.moving) == 1, "$.witness.kind", f"{len(self.moving)} coordinates move", "1 in a punctured box")
+        centre = [Number.around(x) for x in self.centre]
+        ends = turnings_that_end(self.run, self.witness, centre, self.charts)
+        if len(ends) != len(self.turnings):
+            raise Unsure("which contacts turn away")
+        for end, aside in zip(ends, self.turnings):
+            if aside.low <= 0 <= aside.high:
+                low, high = (aside.slopes or [(0, 0)] * len(self.radii))[self.moving[0]]
+                need(end and not low <= 0 <= high, "$.witness.kind", "punctured",
+                     "contacts that turn away but at the fixed point")
+        self.must_not_repeat()
 
     def must_not_repeat(self):
         """The period contracts, takes different points to different ones, and moves the first."""
@@ -887,11 +961,11 @@ def check_ray(problem, witness, policy):
 
 def check_loop(problem, witness, policy, repeats=True):
     """The facts to print of a loop in space; without `repeats`, of one that repeats no state."""
-    kind = one_of(witness["kind"], "$.witness.kind", ("states", "box") if repeats else ("box",))
+    kind = one_of(witness["kind"], "$.witness.kind", ("states",) * repeats + ("box", "punctured"))
     start = integer(witness["start"], "$.witness.start", 0, 1 << 31)
     period = integer(witness["period"], "$.witness.period", 1, 1 << 31)
-    need((kind == "box") == ("radii" in witness), "$.witness", kind, "charts, centre and radii of a box only")
-    coordinates = len(witness["radii"]) if kind == "box" and type(witness["radii"]) is list else 0
+    need((kind != "states") == ("radii" in witness), "$.witness", kind, "charts, centre and radii of a box only")
+    coordinates = len(witness["radii"]) if kind != "states" and type(witness["radii"]) is list else 0
     need(coordinates <= 3 * len(problem.contacts), "$.witness.radii", coordinates, "fewer coordinates")
     run = begin(problem, witness, policy, coordinates)
     try:

@@ -5,10 +5,10 @@
 
 mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn. Doubles suspect a loop where a rounded state recurs. `certify
 --claim cycle` proves it: the sets of a state that remembers nothing else recur (`states`), or the run never
-leaves a box of what it remembers (`box`); `lowest mu`: of those that are proved. Every certificate is shown to the
-independent checker, certify/check_runs.py, which also says of which boxes no state recurs in (`no state twice`, claim
-`endless`), and of which proofs the line or the trail told a zero (`by line or trail`, certify/certificates.md).
-`refused`: those that it does not accept; --certificates FOLDER keeps all. Exit code 1 if any is refused."""
+leaves a box of what it remembers (`box`), whose limit may be a tie (`punctured`); `lowest mu`: of those that are
+proved. Every certificate is shown to the independent checker, certify/check_runs.py, which also says in which boxes no
+state recurs (`no state twice`, claim `endless`), and of which proofs the line or the trail told a zero (`by line or
+trail`, certify/certificates.md). `refused`: those that it does not accept; --certificates FOLDER keeps all. Exit code 1 if any is refused."""
 
 import collections
 import json
@@ -63,7 +63,7 @@ def prove(problem, mu, policy, count, file):
         return
     witness = certificate["witness"]
     count[witness["kind"]] += 1
-    count["endless"] += witness["kind"] == "box" and verdict({**certificate, "claim": "endless"}) != ""
+    count["endless"] += witness["kind"] != "states" and verdict({**certificate, "claim": "endless"}) != ""
     count["past"] += "by the line" in said or "by the trail" in said
     count["lowest mu"] = min(count["lowest mu"] or max(FRICTION), mu)
     count["coordinates"] = max(count["coordinates"], len(witness.get("radii", ())))
@@ -77,9 +77,11 @@ def row_of(contacts, slip, seeds, problems, folder):
             ends = stiction.solve_all(drawn, "baraff", "double", POLICIES[slip])["outcome"]
             for index in np.flatnonzero(ends == "cycle"):
                 name = f"{contacts}-{slip}-{seed}-{first + index}.json"
-                prove(drawn[index], FRICTION[(first + index) % len(MU)], POLICIES[slip], count, folder and Path(folder, name))
-    proved = count["states"] + count["box"]
-    return (contacts, slip, len(seeds) * problems, *(count[name] for name in ("suspected", "states", "box")),
+                prove(drawn[index], FRICTION[(first + index) % len(MU)], POLICIES[slip], count,
+                      folder and Path(folder, name))
+    kinds = [count[kind] for kind in ("states", "box", "punctured")]
+    proved = sum(kinds)
+    return (contacts, slip, len(seeds) * problems, count["suspected"], *kinds,
             count["endless"], count["past"], study.share(proved, count["suspected"]),
             *(count[name] for name in ("open", "refused", "coordinates")),
             str(count["lowest mu"]) if proved else "-")
@@ -89,7 +91,7 @@ def main():
     o = study.options(__doc__, contacts=[2, 3], slip=["literal", "redirect"], problems=10000, seeds=[11, 12, 13],
                       certificates="")
     rows = [row_of(contacts, slip, o.seeds, o.problems, o.certificates) for contacts in o.contacts for slip in o.slip]
-    study.show(["contacts", "`slip`", "problems", "suspected", "by states", "by boxes", "no state twice",
+    study.show(["contacts", "`slip`", "problems", "suspected", "by states", "by boxes", "punctured", "no state twice",
                 "by line or trail", "proved, 95 %", "open", "refused", "most coordinates", "lowest mu"], rows)
     sys.exit(any(row[-3] for row in rows))
 

@@ -81,7 +81,9 @@ namespace {
 
 Json LoopToJson(const Policy& policy, const LoopInSpace& loop) {
   Json witness = {{"policy", PolicyName(policy)},
-                  {"kind", loop.IsBox() ? "box" : "states"},
+                  {"kind", loop.punctured ? "punctured"
+                           : loop.IsBox() ? "box"
+                                          : "states"},
                   {"bits", loop.bits},
                   {"start", loop.start},
                   {"period", loop.period},
@@ -295,13 +297,15 @@ std::vector<std::string> ReadWord(const Json& witness) {
 }
 
 LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
-  const bool box = witness.contains("kind") && witness["kind"] == "box";
+  const bool punctured = witness.contains("kind") && witness["kind"] == "punctured";
+  const bool box = punctured || (witness.contains("kind") && witness["kind"] == "box");
   std::set<std::string> keys = {"policy", "kind", "bits", "start", "period", "word"};
   if (box) keys.insert({"charts", "centre", "radii"});
   RequireKeys(witness, "witness", keys);
   if (!box && witness["kind"] != "states")
-    throw Rejected{"witness.kind", Shown(witness["kind"]), "states or box"};
+    throw Rejected{"witness.kind", Shown(witness["kind"]), "states, box or punctured"};
   LoopInSpace loop;
+  loop.punctured = punctured;
   loop.bits = ReadBits(witness);
   loop.start = ReadInteger(witness["start"], "witness.start", 0);
   loop.period = ReadInteger(witness["period"], "witness.period", 1);

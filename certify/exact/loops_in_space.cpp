@@ -128,6 +128,10 @@ class Walk {
     run_.Begin(problem, &trace_);
   }
   void StandAt(const StateInSpace& state) { run_.StandAt(state); }
+  // From here on a contact turns away where it may: periods are told apart.
+  void AssumeTurnings() { run_.AssumeTurnings(); }
+  void BeginPeriod() { run_.BeginPeriod(); }
+  const std::vector<FineRun::Turning>& turnings() const { return run_.turnings(); }
 
   StateInSpace state() const { return run_.standing(); }
   std::int64_t drives() const { return run_.verdict().statistics.drives; }
@@ -157,6 +161,10 @@ struct Image {
   Coordinates x;
   std::vector<bool> untouched;
   Steps word;
+  std::vector<FineInterval> asides;  // of the contacts that turn away
+
+  // Whether it is told of each turning that it is one.
+  bool TellsTurnings() const { return std::ranges::all_of(asides, Unsure<FineInterval>::TellsSign); }
 };
 
 // A problem over numbers of so many bits. Its FineBits must live as long.
@@ -174,12 +182,12 @@ class FineProblem {
   // state.
   Image ImageOf(const StateInSpace& state, const Coordinates& x, const std::vector<int>& charts,
                 std::int64_t period, std::size_t steps) const {
-    Walk walk = Begin();
-    walk.StandAt(memory_.With(state, x, charts));
+    Walk walk = BeginPeriod(state, x, charts);
     walk.GoTo(period, steps);
     const StateInSpace end = walk.state();
     if (walk.drives() != period || !memory_.Same(end, state)) throw RunEnded{"another state"};
-    Image image = {memory_.CoordinatesOf(end, charts), {}, walk.word()};
+    Image image = {memory_.CoordinatesOf(end, charts), {}, walk.word(), {}};
+    for (const auto& turning : walk.turnings()) image.asides.push_back(turning.aside);
     const std::vector<Remembered> memory = memory_.Of(state);
     for (std::size_t k = 0; k < memory.size(); ++k) {
       const bool untouched =
@@ -189,7 +197,33 @@ class FineProblem {
     return image;
   }
 
+  // Of the contacts that turn away in a period: whether aF is zero there if all periods are alike. The third
+  // period is the first of which all is named in the one before.
+  std::vector<bool> TurningsThatEnd(const StateInSpace& state, const Coordinates& x,
+                                    const std::vector<int>& charts, std::int64_t period,
+                                    std::size_t steps) const {
+    Walk walk = BeginPeriod(state, x, charts);
+    std::size_t before = 0;
+    for (int k = 1; k <= 3; ++k) {
+      before = walk.turnings().size();
+      if (k > 1) walk.BeginPeriod();
+      walk.GoTo(k * period, k * steps);
+      if (walk.word().size() != k * steps) throw RunEnded{"another period"};
+    }
+    std::vector<bool> ends;
+    for (std::size_t k = before; k < walk.turnings().size(); ++k) ends.push_back(walk.turnings()[k].ends);
+    return ends;
+  }
+
  private:
+  Walk BeginPeriod(const StateInSpace& state, const Coordinates& x, const std::vector<int>& charts) const {
+    Walk walk = Begin();
+    walk.AssumeTurnings();
+    walk.StandAt(memory_.With(state, x, charts));
+    walk.BeginPeriod();
+    return walk;
+  }
+
   // The same ends and derivatives.
   static bool Same(const FineInterval& x, const FineInterval& y) {
     const auto slope = [](const FineInterval& z, std::size_t k) {
@@ -258,6 +292,69 @@ Rational OfPlaces(const Rational& x, int places) {
   Rational result(floor, mpz_class(1) << places);
   result.canonicalize();
   return result;
+}
+
+FineInterval SlopeOf(const FineInterval& x, int k) {
+  return static_cast<std::size_t>(k) < x.slopes().size() ? FineInterval(x.slopes()[k]) : FineInterval();
+}
+
+// Whether every matrix of derivatives in the box is regular, by the coordinates that move.
+bool IsInjective(const Image& image, const std::vector<int>& moving) {
+  const int size = static_cast<int>(moving.size());
+  Elimination<FineInterval> slopes;
+  slopes.Resize(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int k = 0; k < size; ++k) slopes(i, k) = SlopeOf(image.x[moving[i]], moving[k]);
+  }
+  slopes.Run(size, size, size);
+  return slopes.rank() == size;
+}
+
+std::vector<int> Moving(const Image& image) {
+  std::vector<int> moving;
+  for (std::size_t i = 0; i < image.x.size(); ++i) {
+    if (!image.untouched[i]) moving.push_back(static_cast<int>(i));
+  }
+  return moving;
+}
+
+// Where a state could recur: `image` is what the period makes of the box.
+std::optional<LoopFault> FaultOfRecurrence(const FineProblem& problem, const StateInSpace& state,
+                                           const LoopInSpace& loop, const Image& image) {
+  const std::vector<int> moving = Moving(image);
+  for (const int i : moving) {
+    Rational spread = 0;
+    for (int k = 0; k < loop.radii.size(); ++k) spread += SteepestOf(image.x[i], k);
+    if (spread >= loop.radii[i])
+      return LoopFault{fmt::format("radii[{}]", i), ToString(loop.radii[i]), "a period that contracts"};
+  }
+  if (!IsInjective(image, moving)) Unsure<FineInterval>::Refuse();
+  const Coordinates first = problem.memory().CoordinatesOf(state, loop.charts);
+  const Image then = problem.ImageOf(state, first, loop.charts, loop.period, image.word.size());
+  const auto moves = [&](int i) {
+    const FineEnds &x = first[i].ends(), &y = then.x[i].ends();
+    return x.high < y.low || y.high < x.low;
+  };
+  if (std::ranges::any_of(moving, moves)) return std::nullopt;
+  return LoopFault{"start", std::to_string(loop.start), "a state that the period surely moves"};
+}
+
+// Where a contact could not turn away in a punctured box, but at its fixed point.
+std::optional<LoopFault> FaultOfTurnings(const FineProblem& problem, const StateInSpace& state,
+                                         const LoopInSpace& loop, const Image& image) {
+  const std::vector<int> moving = Moving(image);
+  if (moving.size() != 1)
+    return LoopFault{"radii", fmt::format("{} coordinates that move", moving.size()), "1 in a punctured box"};
+  const std::vector<bool> ends =
+      problem.TurningsThatEnd(state, Points(loop.centre), loop.charts, loop.period, image.word.size());
+  if (ends.size() != image.asides.size()) Unsure<FineInterval>::Refuse();
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const FineInterval& aside = image.asides[k];
+    if (Unsure<FineInterval>::TellsSign(aside)) continue;
+    if (!ends[k] || Sign(SlopeOf(aside, moving[0])) == 0)
+      return LoopFault{"kind", "punctured", "contacts that turn away but at the fixed point"};
+  }
+  return FaultOfRecurrence(problem, state, loop, image);
 }
 
 // ---- Finding a proof ---------------------------------------------------------------------------
@@ -448,7 +545,7 @@ class LoopSearch {
       const Image image = problem_.ImageOf(top.state, BoxAround(centre, radii), charts, period, kMostSteps);
       if (!LeavesBox(middle, image, centre, radii)) {
         contracts_ = true;
-        return Entered(top, charts, period, centre, radii, middle.word);
+        return Entered(top, charts, period, centre, radii, image);
       }
       Eigen::MatrixXd steepest(size, size);
       for (int i = 0; i < size; ++i) {
@@ -466,13 +563,15 @@ class LoopSearch {
   // From the first state of the run that is in the box.
   std::optional<LoopInSpace> Entered(const Top& like, const std::vector<int>& charts, std::int64_t period,
                                      const ExactVector& centre, const ExactVector& radii,
-                                     const Steps& steps) const {
+                                     const Image& image) const {
     for (const Top& top : tops_) {
       if (!problem_.memory().Same(top.state, like.state)) continue;
       if (!IsInBox(problem_.memory().CoordinatesOf(top.state, charts), centre, radii)) continue;
       LoopInSpace loop = {bits_of_proof(), top.drives, period, {}, charts, centre, radii};
+      loop.punctured = !image.TellsTurnings();
+      if (loop.punctured && FaultOfTurnings(problem_, top.state, loop, image)) return std::nullopt;
       loop.word.assign(word_.begin(), word_.begin() + static_cast<std::ptrdiff_t>(top.steps));
-      loop.word.insert(loop.word.end(), steps.begin(), steps.end());
+      loop.word.insert(loop.word.end(), image.word.begin(), image.word.end());
       return loop;
     }
     return std::nullopt;
@@ -537,45 +636,6 @@ std::optional<LoopFault> FaultOfPlace(const FineProblem& problem, const StateInS
   return std::nullopt;
 }
 
-FineInterval SlopeOf(const FineInterval& x, int k) {
-  return static_cast<std::size_t>(k) < x.slopes().size() ? FineInterval(x.slopes()[k]) : FineInterval();
-}
-
-// Whether every matrix of derivatives in the box is regular, by the coordinates that move.
-bool IsInjective(const Image& image, const std::vector<int>& moving) {
-  const int size = static_cast<int>(moving.size());
-  Elimination<FineInterval> slopes;
-  slopes.Resize(size, size);
-  for (int i = 0; i < size; ++i) {
-    for (int k = 0; k < size; ++k) slopes(i, k) = SlopeOf(image.x[moving[i]], moving[k]);
-  }
-  slopes.Run(size, size, size);
-  return slopes.rank() == size;
-}
-
-// Where a state could recur: `image` is what the period makes of the box.
-std::optional<LoopFault> FaultOfRecurrence(const FineProblem& problem, const StateInSpace& state,
-                                           const LoopInSpace& loop, const Image& image) {
-  std::vector<int> moving;
-  for (int i = 0; i < loop.radii.size(); ++i) {
-    if (image.untouched[i]) continue;
-    moving.push_back(i);
-    Rational spread = 0;
-    for (int k = 0; k < loop.radii.size(); ++k) spread += SteepestOf(image.x[i], k);
-    if (spread >= loop.radii[i])
-      return LoopFault{fmt::format("radii[{}]", i), ToString(loop.radii[i]), "a period that contracts"};
-  }
-  if (!IsInjective(image, moving)) Unsure<FineInterval>::Refuse();
-  const Coordinates first = problem.memory().CoordinatesOf(state, loop.charts);
-  const Image then = problem.ImageOf(state, first, loop.charts, loop.period, loop.word.size());
-  const auto moves = [&](int i) {
-    const FineEnds &x = first[i].ends(), &y = then.x[i].ends();
-    return x.high < y.low || y.high < x.low;
-  };
-  if (std::ranges::any_of(moving, moves)) return std::nullopt;
-  return LoopFault{"start", std::to_string(loop.start), "a state that the period surely moves"};
-}
-
 std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk, const LoopInSpace& loop) {
   const StateInSpace state = walk.state();
   if (auto fault = FaultOfPlace(problem, state, loop)) return fault;
@@ -589,6 +649,8 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
   if (const auto leaves = LeavesBox(middle, image, loop.centre, loop.radii))
     return LoopFault{fmt::format("radii[{}]", leaves->first), ToString(loop.radii[leaves->first]),
                      fmt::format("{:.3g}, as far as the period leads", ToDouble(leaves->second))};
+  if (loop.punctured) return FaultOfTurnings(problem, state, loop, image);
+  if (!image.TellsTurnings()) Unsure<FineInterval>::Refuse();
   return loop.endless ? FaultOfRecurrence(problem, state, loop, image) : std::nullopt;
 }
 

@@ -11,6 +11,9 @@
 //            abs(F(c) - c)_i + sum_j sup abs(dF_i / dx_j) r_j <= r_i
 //
 //          keeps it in the box for ever. A coordinate that the period leaves untouched is a parameter.
+// Punctured boxes  A contact turns away with an aF that is zero at the fixed point of F, and nowhere else in
+// the
+//          box. The run comes into the box, and never to the fixed point (Endless).
 // Endless  No state recurs, if besides F contracts, sum_j sup abs(dF_i / dx_j) r_j < r_i, takes different
 // points
 //          of the box to different ones, and moves the first.
@@ -41,7 +44,8 @@ struct LoopInSpace {
   // Of a box, a number for each coordinate; empty for states.
   std::vector<int> charts;  // 0: a force; 1, -1: a direction, or its opposite, by the tangent of half its angle
   ExactVector centre, radii;
-  bool endless = false;  // whether it says that no state recurs
+  bool punctured = false;  // a box without the fixed point
+  bool endless = false;    // whether it says that no state recurs
 
   bool IsBox() const { return radii.size() > 0; }
 };

@@ -110,6 +110,18 @@ class PublishedInSpace {
   bool TakeTurn();
   Standing standing() const;
 
+  // A contact turned away, with `aside`, aF beside its recorded direction. `ends`: were every period like the
+  // one before, this line would be one of which a point has aF = 0; so that aside would be zero here.
+  struct Turning {
+    Scalar aside;
+    bool ends;
+  };
+  // From here on contacts turn away also where it is not told whether aside is zero, and are listed. Requires
+  // Begin.
+  void AssumeTurnings() { assumes_turnings_ = true; }
+  void BeginPeriod();
+  const std::vector<Turning>& turnings() const { return turnings_; }
+
   // Of the last run, also of one that ended in an exception: what it had done. In the problem's own axes.
   const PublishedSpaceVerdict& verdict() const { return verdict_; }
   Vector f() const { return InProblemAxes(state_.f); }
@@ -192,7 +204,7 @@ class PublishedInSpace {
   void RecordStep(const Step<Scalar>& step, IndexSet from, bool gave_up);
 
   // Where the run has been: enclosures.
-  LineName NameOfLine(int driven) const;
+  LineName NameOfLine(int driven, const std::vector<int>& axes, const std::vector<int>& recorded) const;
   bool SlipEndsOnLine(int contact) const;
   void NoteSlipEnds();
   void MoveAlong(const Step<Scalar>& step, bool zero);
@@ -227,9 +239,17 @@ class PublishedInSpace {
   static constexpr int kProblemAxes = 0;
   std::vector<int> axes_;  // by contact: of equal numbers the axes are equal, up to their signs
   int turned_axes_ = 0;
+  // The same within a period: equal numbers are equal if every period is like the one before.
+  std::vector<int> axes_in_period_, recorded_in_period_, recorded_before_;
+  int axes_before_ = 0;
   LineName line_, last_line_;  // of this step; of the last one that was not zero
   int lines_followed_ = 0;
-  std::set<std::pair<int, LineName>> slip_ends_;  // contact, line: there is a point of the line with aF = 0
+  using SlipEnds = std::set<std::pair<int, LineName>>;
+  SlipEnds slip_ends_;  // contact, line: there is a point of the line with aF = 0
+  LineName line_in_period_;
+  SlipEnds ends_in_period_, ends_before_;  // of this period; of the one before
+  bool assumes_turnings_ = false;
+  std::vector<Turning> turnings_;
   Trail trail_;
   PublishedSpaceVerdict verdict_;
   bool ended_ = false;

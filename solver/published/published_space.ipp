@@ -64,6 +64,12 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   recorded_anew_.assign(problem.contacts.size(), 0);
   axes_.assign(problem.contacts.size(), kProblemAxes);
   turned_axes_ = 0;
+  assumes_turnings_ = false;
+  turnings_.clear();
+  axes_in_period_ = axes_;
+  recorded_in_period_ = recorded_anew_;
+  ends_in_period_.clear();
+  BeginPeriod();
   lines_followed_ = 0;
   last_line_.clear();
   slip_ends_.clear();
@@ -233,8 +239,12 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
     const auto status = direction_.Solve(turned_, layout_, state_.sets, driven, sign, scale_);
     if (status != System::Status::kRegular) ++statistics.singular_directions;
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
-    if constexpr (kEncloses<Scalar>)
-      line_ = status == System::Status::kRegular ? NameOfLine(driven) : LineName();
+    if constexpr (kEncloses<Scalar>) {
+      const bool regular = status == System::Status::kRegular;
+      line_ = regular ? NameOfLine(driven, axes_, recorded_anew_) : LineName();
+      if (assumes_turnings_)
+        line_in_period_ = regular ? NameOfLine(driven, axes_in_period_, recorded_in_period_) : LineName();
+    }
     if constexpr (kIsExact<Scalar>) {
       OuterState none = {}, &from = outer_states_.empty() ? none : outer_states_.back();
       from.regular |= status == System::Status::kRegular && from.sets == state_.sets;
@@ -312,6 +322,8 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
       AlongForce(FrictionOf(row));
       state_.f[FrictionOf(row)] = Bound(FrictionOf(row));
       ++recorded_anew_[layout_.ContactOf(row)];
+      recorded_in_period_[layout_.ContactOf(row)] =
+          recorded_anew_[layout_.ContactOf(row)] - recorded_before_[layout_.ContactOf(row)];
       break;
     default:
       state_.f[row] = Scalar(0);
@@ -353,7 +365,12 @@ void PublishedInSpace<Scalar>::MoveLimiting(int row, IndexSet wants) {
 template <class Scalar>
 bool PublishedInSpace<Scalar>::TurnsAway(int row) {
   if (state_.sets[row] != IndexSet::kAtUpper || options_.policy.slip != Slip::kRedirect) return false;
-  if (IsSurelyZero(state_.a[row + 1]) || Sign(state_.a[row + 1], scale_.acceleration) == 0) {
+  if (assumes_turnings_ && !IsSurelyZero(state_.a[row + 1])) {
+    const std::pair end = {layout_.ContactOf(row), line_in_period_};
+    const bool rests_at_zero = !line_in_period_.empty() && line_in_period_.back() == 0;
+    turnings_.push_back(
+        {state_.a[row + 1], rests_at_zero && (ends_in_period_.contains(end) || ends_before_.contains(end))});
+  } else if (IsSurelyZero(state_.a[row + 1]) || Sign(state_.a[row + 1], scale_.acceleration) == 0) {
     state_.a[row + 1] = Scalar(0);
     return false;
   }
@@ -515,7 +532,9 @@ void PublishedInSpace<Scalar>::Turn(int contact, const Tangent& p) {
     (*values)[row + 1] = q[0] * x[0] + q[1] * x[1];
   }
   frame = {p, q};
-  axes_[contact] = IsSurelyZero(p[1]) ? kProblemAxes : ++turned_axes_;
+  const bool turned = !IsSurelyZero(p[1]);
+  axes_[contact] = turned ? ++turned_axes_ : kProblemAxes;
+  axes_in_period_[contact] = turned ? turned_axes_ - axes_before_ : kProblemAxes;
   Rebuild(row);
 }
 
@@ -613,8 +632,9 @@ Scalar PublishedInSpace<Scalar>::Bound(int row) const {
 // What the force direction depends on, an axis up to its sign, and the forces that rest: 0 if they are zero,
 // otherwise which of the lines that the run has followed this one is.
 template <class Scalar>
-auto PublishedInSpace<Scalar>::NameOfLine(int driven) const -> LineName {
-  LineName name = {driven, layout_.IsNormal(driven) ? kProblemAxes : axes_[layout_.ContactOf(driven)]};
+auto PublishedInSpace<Scalar>::NameOfLine(int driven, const std::vector<int>& axes,
+                                          const std::vector<int>& recorded) const -> LineName {
+  LineName name = {driven, layout_.IsNormal(driven) ? kProblemAxes : axes[layout_.ContactOf(driven)]};
   bool rests_at_zero = true;
   for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
     const int row = layout_.NormalRowOf(contact);
@@ -623,7 +643,7 @@ auto PublishedInSpace<Scalar>::NameOfLine(int driven) const -> LineName {
     rests_at_zero &= moves || IsSurelyZero(state_.f[row]);
     if (!layout_.HasFriction(row)) continue;
     const bool follows = moves && state_.sets[row + 1] == IndexSet::kAtUpper;
-    name.push_back(follows ? recorded_anew_[contact] : -1);
+    name.push_back(follows ? recorded[contact] : -1);
     for (int at = row + 1; at <= row + 2; ++at) {
       const bool sticks = state_.sets[at] == IndexSet::kSticking;
       name.push_back(static_cast<int>(sticks));
@@ -646,9 +666,20 @@ template <class Scalar>
 void PublishedInSpace<Scalar>::NoteSlipEnds() {
   for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
     const int row = layout_.NormalRowOf(contact) + 1;
-    if (layout_.HasFriction(row - 1) && IsSurelyZero(state_.a[row]) && IsSurelyZero(state_.a[row + 1]))
-      slip_ends_.insert({contact, line_});
+    if (!layout_.HasFriction(row - 1) || !IsSurelyZero(state_.a[row]) || !IsSurelyZero(state_.a[row + 1]))
+      continue;
+    slip_ends_.insert({contact, line_});
+    if (assumes_turnings_) ends_in_period_.insert({contact, line_in_period_});
   }
+}
+
+// What is named in one period is named by the same numbers in the next.
+template <class Scalar>
+void PublishedInSpace<Scalar>::BeginPeriod() {
+  axes_before_ = turned_axes_;
+  recorded_before_ = recorded_anew_;
+  ends_before_ = std::move(ends_in_period_);
+  ends_in_period_.clear();
 }
 
 // f += s df, a += s da. Where a normal left C, and comes back to aN = 0 along the line that the run took from

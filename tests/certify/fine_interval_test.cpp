@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "certify/exact/properties.h"
 #include "search/generators/choices.h"
 #include "tests/support.h"
 

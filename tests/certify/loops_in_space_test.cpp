@@ -61,6 +61,19 @@ ExactProblem OfLines() {
   return problem;
 }
 
+// Redirected, a contact turns away with an aF that comes nearer and nearer to zero.
+ExactProblem OfTurnings() {
+  ExactProblem problem = TwoContacts({{7, 1, -1, -2, -5, -2},
+                                      {1, 8, -1, -2, -3, -4},
+                                      {-1, -1, 8, 3, -1, 3},
+                                      {-2, -2, 3, 8, 1, -2},
+                                      {-5, -3, -1, 1, 11, 2},
+                                      {-2, -4, 3, -2, 2, 7}},
+                                     {-1, 2, 3, -3, -3, -1});
+  for (auto& contact : problem.contacts) contact.mu = 1;
+  return problem;
+}
+
 Policy WithSlip(Slip slip) {
   Policy policy;
   policy.slip = slip;
@@ -171,6 +184,22 @@ TEST_CASE(
     other.endless = true;
     CHECK(FaultyPlace(OfStates(), WithSlip(slip), other) == "kind");
   }
+}
+
+TEST_CASE(
+    "loops in space: a contact turns away with less and less, and with nothing at the fixed point alone") {
+  const Policy redirect = WithSlip(Slip::kRedirect);
+  LoopInSpace loop = Proof(OfTurnings(), redirect);
+  CHECK(loop.punctured);
+  CHECK(FaultyPlace(OfTurnings(), redirect, loop).empty());
+  loop.endless = true;
+  CHECK(FaultyPlace(OfTurnings(), redirect, loop).empty());
+  LoopInSpace other = loop;
+  other.punctured = false;
+  CHECK(FaultyPlace(OfTurnings(), redirect, other) == "bits");
+  other = loop;
+  other.centre[0] += 3 * loop.radii[0];
+  CHECK(FaultyPlace(OfTurnings(), redirect, other) == "centre");
 }
 
 // corpus/space/ray-under-slip-literal.json

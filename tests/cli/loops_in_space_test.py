@@ -27,6 +27,15 @@ ALONG_LINES = {
     "b": ["-1", "4", "2", "0", "4", "3"],
 }
 
+# Redirected, a contact turns away with an aF that comes nearer and nearer to zero.
+PUNCTURED = {
+    "format": "stiction-problem", "version": 1, "name": "punctured", "dimension": 3,
+    "contacts": [{"kind": "static", "mu": "1"}, {"kind": "static", "mu": "1"}],
+    "A": [["7", "1", "-1", "-2", "-5", "-2"], ["1", "8", "-1", "-2", "-3", "-4"], ["-1", "-1", "8", "3", "-1", "3"],
+          ["-2", "-2", "3", "8", "1", "-2"], ["-5", "-3", "-1", "1", "11", "2"], ["-2", "-4", "3", "-2", "2", "7"]],
+    "b": ["-1", "2", "3", "-3", "-3", "-1"],
+}
+
 
 class LoopsInSpace(cli.TestCase):
     def certificate(self, problem, policy):
@@ -134,6 +143,27 @@ class LoopsInSpace(cli.TestCase):
         self.assertIn("by the line", said)
         self.refused([*self.altered(proof), *self.altered_box(proof)], 20)
 
+    def test_a_punctured_box(self):
+        problem = self.folder / "punctured.json"
+        problem.write_text(json.dumps(PUNCTURED))
+        proof = self.certificate(problem, "slip=redirect")
+        self.assertEqual(proof["witness"]["kind"], "punctured")
+        self.assertEqual(self.verdicts([proof, {**proof, "claim": "endless"}]), [True, True])
+        whole = copy.deepcopy(proof)
+        whole["witness"]["kind"] = "box"
+        self.refused([("a sign is not told in a box", whole), *self.altered(proof), *self.altered_box(proof)], 20)
+
+    def test_other_turnings_are_no_fixed_point(self):
+        """Of a box whose signs are all told the independent checker knows of no turning with aF = 0."""
+        _, box = self.proofs("slip=redirect")
+        run = self.run_of(box)
+        from check_runs_in_space import Number, turnings_that_end
+        witness = box["witness"]
+        run.run_until(witness["start"])
+        centre = [Number.around(Fraction(c)) for c in witness["centre"]]
+        ends = turnings_that_end(run, witness, centre, witness["charts"])
+        self.assertFalse(any(ends))
+
     def refused(self, cases, least):
         self.assertGreater(len(cases), least)
         for (what, _), accepted in zip(cases, self.verdicts([case for _, case in cases])):
@@ -188,7 +218,8 @@ class LoopsInSpace(cli.TestCase):
         looping = self.certificate(cli.ROOT / "corpus/space/cycle-under-both-slips.json", policy)
         looping["claim"] = "endless"
         self.assertEqual(self.verdicts([endless, {**late, "claim": "cycle"}]), [True, True])
-        self.refused([("too late to be told", late), ("a state recurs", looping), *self.altered(endless), *self.altered_box(endless)], 20)
+        self.refused([("too late to be told", late), ("a state recurs", looping), *self.altered(endless),
+                      *self.altered_box(endless)], 20)
         self.assertIn("witness.start", cli.run("check", self.folder / "0.json").out)
 
     def steps_of_a_period(self, proof):
@@ -211,7 +242,8 @@ class LoopsInSpace(cli.TestCase):
         from check_runs_in_space import SWITCHES, Number, Run, Space, Stated
         witness = proof["witness"]
         Number.bits = witness["bits"]
-        return Run(Space(read_problem(proof["problem"])), read_policy(witness["policy"], switches=SWITCHES), Stated(witness["word"]))
+        return Run(Space(read_problem(proof["problem"])), read_policy(witness["policy"], switches=SWITCHES),
+                   Stated(witness["word"]))
 
     def test_a_box_that_the_period_leaves_is_refused(self):
         """Around the state at start, and too small to hold the point that the period comes near to."""

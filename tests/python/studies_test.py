@@ -118,11 +118,12 @@ class Studies(unittest.TestCase):
             rows, = tables("space_loops", "--contacts", 2, "--problems", 1500, "--seeds", 1, "--certificates", folder)
             self.assertEqual([row["`slip`"] for row in rows], ["literal", "redirect"])
             for row in rows:
-                ends = [whole(row[end]) for end in ("by states", "by boxes", "open", "refused")]
+                ends = [whole(row[end]) for end in ("by states", "by boxes", "punctured", "open", "refused")]
                 self.assertEqual(sum(ends), whole(row["suspected"]), row)
                 self.assertEqual(row["refused"], "0")
-            proved = sum(whole(row["by states"]) + whole(row["by boxes"]) for row in rows)
+            proved = sum(whole(row[kind]) for row in rows for kind in ("by states", "by boxes", "punctured"))
             self.assertGreater(proved, 0)
+            self.assertGreater(sum(whole(row["no state twice"]) for row in rows), 0)
             self.assertEqual(len(list(Path(folder).iterdir())), proved)
 
     def test_space_solved(self):
