@@ -210,7 +210,7 @@ class LoopsInSpace(cli.TestCase):
             self.assertEqual(endless, json.loads(kept.read_text()))
         late = copy.deepcopy(endless)  # so late that the period moves it by less than the bits tell
         witness = late["witness"]
-        turns = 40
+        turns = 10
         late["witness"]["start"] += turns * witness["period"]
         steps = witness["word"]
         once = self.steps_of_a_period(endless)
