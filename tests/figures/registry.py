@@ -141,7 +141,7 @@ MEASUREMENTS = [
     Measurement("space", "long", bench.space, "The policies of section 5.6 side by side, in space."),
     Measurement("space-loops", "minutes", bench.space_loops,
                 "Loops of the published algorithm in space on random problems: suspected by doubles, proved by sets that "
-                "recur or by boxes, whole or punctured, open; every proof accepted by the independent checker."),
+                "recur or by boxes, open; every proof accepted by the independent checker."),
     Measurement("space-solved", "minutes", bench.space_solved,
                 "Whether every problem of space that has a solution is called solved over doubles, and how much larger its "
                 "forces are than what acts (amplification): jams, integers, and problems near critical loads."),
