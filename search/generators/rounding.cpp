@@ -169,8 +169,10 @@ Rational Significant(const Rational& x, int bits) {
 
 }  // namespace
 
-ExactProblem WithRoundedFactors(const ExactProblem& problem, int bits) {
-  auto factors = std::get<LdltFactors>(DecideSemidefinite(problem.A));
+std::optional<ExactProblem> WithRoundedFactors(const ExactProblem& problem, int bits) {
+  auto decision = DecideSemidefinite(problem.A);
+  if (!std::holds_alternative<LdltFactors>(decision)) return std::nullopt;
+  auto& factors = std::get<LdltFactors>(decision);
   ExactProblem rounded = problem;
   const int size = problem.rows();
   ExactVector c = problem.b;

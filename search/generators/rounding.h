@@ -6,6 +6,7 @@
 #define STICTION_SEARCH_GENERATORS_ROUNDING_H_
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,9 @@ ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::in
 // 3/4 is added or taken away.
 ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots);
 // A = L D L' and b = L c with L, D and c to so many significant bits, common factors taken out: semidefinite
-// whatever the rounding, which matters where A is nearly singular. Requires: A positive semidefinite.
-ExactProblem WithRoundedFactors(const ExactProblem& problem, int bits);
+// whatever the rounding, which matters where A is nearly singular. Empty where A is not positive semidefinite,
+// as one that was rounded to doubles may be.
+std::optional<ExactProblem> WithRoundedFactors(const ExactProblem& problem, int bits);
 // Numbers to try in the place of x, simplest first; `positive`: none below zero.
 std::vector<Rational> SimplerNumbers(const Rational& x, bool positive);
 
