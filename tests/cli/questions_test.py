@@ -11,6 +11,7 @@ FOLDER = cli.ROOT / "search"
 PAGE = FOLDER / "questions.md"
 ROW = re.compile(r"(?m)^\| `([\w-]+)` \| (.+) \| (.+) \| \[([\w-]+)\]\(([^)]+)\)(.*) \| (.+) \|$")
 STATUS = re.compile(r"(open|settled|refuted)\b.*: \[[^\]]+\]\(([^)]+)\)")
+VALLEY = "cycle-2c-5d-14s-b25341001876a8e6"  # the group of corpus/cycle-of-a-block-in-a-valley.json
 
 
 class Questions(cli.TestCase):
@@ -47,6 +48,16 @@ class Questions(cli.TestCase):
                 note = json.loads(files[campaign].read_text())["note"]
                 self.assertEqual(note, f"asks {', '.join(questions)}: search/questions.md")
                 self.succeeds("slurm", files[campaign], "--shards", 1, "--problems", 1000, "-o", self.folder / campaign)
+
+    def test_two_contacts_under_gravity_that_loop_are_found_again_from_nothing(self):
+        store = self.folder / "s.store"
+        done = self.succeeds("search", FOLDER / "campaigns/two-under-gravity.json", "--problems", 10000, "--finishing", 0,
+                             "--store", store)
+        self.assertIn("1 of them in the corpus", done.err)
+        problem = json.loads(self.succeeds("problem", store, VALLEY, "-o", "-").out)
+        self.assertEqual(len(problem["contacts"]), 2)
+        file = self.file("p.json", problem)
+        self.assertIn("for ever", self.succeeds("replay", file, code=1).out)
 
     def test_a_campaign_with_a_wrong_word_is_refused(self):
         campaign = json.loads((FOLDER / "campaigns/safe-ties.json").read_text())
