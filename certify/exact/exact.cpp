@@ -29,7 +29,7 @@ ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
   state.f = remainder.Forces(state.f);
   state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);
   run.initial_f = remainder.Forces(run.initial_f);
-  run.a = remainder.Accelerations(state.f);
+  if (&remainder.problem() != &remainder.whole()) run.a = remainder.Accelerations(state.f);
   if (run.verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(run.ray);
   return run;
 }
@@ -46,8 +46,10 @@ ExactRun Unstarted(const ExactProblem& problem, const Verdict& verdict) {
 }
 
 ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& options) {
+  constexpr std::size_t kPivotsExpected = 128;  // each that has to move is copied
   PublishedAlgorithm<Rational> algorithm(options);
   ExactRun run;
+  run.trace.pivots.reserve(kPivotsExpected);
   run.verdict = algorithm.Run(problem, &run.trace);
   run.initial_f = ExactProblem::Vector::Zero(problem.rows());
   run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(),

@@ -11,7 +11,9 @@
 #include "certify/exact/enclosed_remainder.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/inexact.h"
+#include "certify/exact/long_float.h"
 #include "certify/exact/nearby_words.h"
+#include "certify/exact/verify_solution.h"
 #include "certify/exact/wide_ball.h"
 #include "solver/complete/complete.ipp"
 #include "solver/lemke/lemke.ipp"
@@ -26,6 +28,9 @@ namespace {
 // The rows that may follow from others, where the rung asks for them: the first leaves that to the second.
 template <class Number>
 constexpr bool kAsksForDependentRows = !std::is_same_v<Number, double>;
+
+// Rows from which on long floats are tried before rationals, whose numbers are short in small problems.
+constexpr int kLongFrom = 8;
 
 template <class Number>
 std::span<const Method<Ball<Number>>> EnclosedMethods() {
@@ -43,6 +48,10 @@ std::span<const Method<Ball<double>>> Methods<Ball<double>>() {
 template <>
 std::span<const Method<Ball<dd_real>>> Methods<Ball<dd_real>>() {
   return EnclosedMethods<dd_real>();
+}
+template <>
+std::span<const Method<Ball<LongFloat>>> Methods<Ball<LongFloat>>() {
+  return EnclosedMethods<LongFloat>();
 }
 
 namespace {
@@ -106,8 +115,14 @@ InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, co
 
 InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
                           Rung rung, KeepTrace keep) {
-  return rung == Rung::kDouble ? RunOnRung<double>(method, problem, options, keep)
-                               : RunOnRung<dd_real>(method, problem, options, keep);
+  switch (rung) {
+    case Rung::kDouble:
+      return RunOnRung<double>(method, problem, options, keep);
+    case Rung::kDoubleDouble:
+      return RunOnRung<dd_real>(method, problem, options, keep);
+    default:
+      return RunOnRung<LongFloat>(method, problem, options, keep);
+  }
 }
 
 // ---- The published algorithm, rung after rung ----------------------------------------------------
@@ -138,14 +153,21 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions&
   const ExactProblem& remaining = remainder.problem();
   if (rungs.first == Rung::kDouble) {
     if (const auto verdict = TryPublished<double>(remaining, options, nullptr))
-      return {*verdict, Rung::kDouble};
+      return {*verdict, Rung::kDouble, /*by_balls=*/true};
   }
-  if (rungs.first <= Rung::kDoubleDouble && Rung::kDoubleDouble <= rungs.last) {
+  if (rungs.first < Rung::kExact) {
     ExactDependentRows dependent(remaining);
-    if (const auto verdict = TryPublished<dd_real>(remaining, options, &dependent))
-      return {*verdict, Rung::kDoubleDouble};
+    if (Rung::kDoubleDouble <= rungs.last) {
+      if (const auto verdict = TryPublished<dd_real>(remaining, options, &dependent))
+        return {*verdict, Rung::kDoubleDouble, /*by_balls=*/true};
+    }
+    if (Rung::kExact == rungs.last && remaining.rows() >= kLongFrom) {
+      if (const auto verdict = TryPublished<LongFloat>(remaining, options, &dependent))
+        return {*verdict, Rung::kExact, /*by_balls=*/true};
+    }
   }
-  if (rungs.last != Rung::kExact) return {{Outcome::kUndecided, kUnsureSign}, rungs.last};
+  if (rungs.last != Rung::kExact || !rungs.with_rationals)
+    return {{Outcome::kUndecided, kUnsureSign}, rungs.last};
   PublishedAlgorithm<Rational> algorithm(options);
   return {algorithm.Run(remaining), Rung::kExact};
 }
@@ -200,6 +222,7 @@ std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits
       SolveWord(problem, *WordNamed(problem, answer.word), std::vector<Rational>(problem.rows(), 0));
   if (!solution) return std::nullopt;
   answer.f = std::move(solution->f);
+  answer.a = std::move(solution->a);
   return answer;
 }
 
@@ -219,10 +242,14 @@ ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limit
     rung = Rung::kDoubleDouble;
     ExactDependentRows dependent(remainder.problem());
     answer = TryComplete<dd_real>(remainder.problem(), limits, &dependent);
+    if (!answer && problem.rows() >= kLongFrom) {
+      rung = Rung::kExact;
+      answer = TryComplete<LongFloat>(remainder.problem(), limits, &dependent);
+    }
   }
   if (!answer) return exactly();
   answer->f = remainder.Forces(answer->f);
-  answer->a = remainder.Accelerations(answer->f);
+  if (answer->a.size() != problem.rows()) answer->a = Accelerations(problem, answer->f);
   answer->word = remainder.Word(answer->word);
   answer->method = "complete";
   answer->rung = rung;

@@ -6,7 +6,8 @@
 //   double          balls around doubles                       by the sets (solver/problem/enclosure.h)
 //   double-double   balls around double-doubles, 100 bits      besides, accelerations that follow from others
 //                                                              (dependent_rows.h)
-//   exact           rationals                                  all
+//   exact           balls around floats of 512 bits             as many
+//                   rationals, where these leave a sign open   all
 //
 // Where nobody asks for the path, only for a solution, none is followed with certified signs: CertifyDoubles
 // runs the method over doubles and certifies the end, at the price of a check. What follows is of paths.
@@ -42,21 +43,23 @@ std::span<const Method<Ball<double>>> Methods<Ball<double>>();
 
 // A method of the table over balls: forces and accelerations with their ends, in the
 // middle of them otherwise, as pivots; undecided where a sign was unsure. Its forces are not judged. Lemke's
-// method takes a covering vector of ones. Requires dimension 2, and a rung other than exact. The answer keeps
-// METHOD, which has to outlive it.
+// method takes a covering vector of ones. Requires dimension 2. On the rung exact no rationals are run. The
+// answer keeps METHOD, which has to outlive it.
 InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
                           Rung rung, KeepTrace keep = KeepTrace::kNo);
 
 // The rungs that a run is tried on. A suspicion of doubles is better begun on the second: the first seldom
-// tells what rounding did not.
+// tells what rounding did not. A run that begins on the rung exact is one over rationals.
 struct Rungs {
   Rung first = Rung::kDouble, last = Rung::kExact;
+  bool with_rationals = true;  // of the rung exact; otherwise only its balls are tried
 };
 
 // A verdict of the run over rationals, and the rung that gave it; `undecided` for kUnsureSign where none did.
 struct OnRung {
   Verdict verdict;
   Rung rung = Rung::kExact;
+  bool by_balls = false;  // not by rationals
 };
 
 // The published algorithm. Requires dimension 2. A thread keeps the memory of its runs.

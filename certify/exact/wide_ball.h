@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "corpus/rational.h"
 #include "solver/problem/ball.h"
@@ -58,8 +59,28 @@ inline NarrowBall BallAround(const Rational& x) {
   return {middle, Rational(middle) == x ? 0 : Rounding<double>::OfProduct(middle)};
 }
 
+// Where the denominator is a power of two, as in most problems: the same ball, from integers alone.
+inline std::optional<WideBall> BallAroundDyadic(const Rational& x) {
+  constexpr std::size_t kMostBits = 900;  // nothing is beyond the doubles
+  const mpz_srcptr numerator = x.get_num_mpz_t();
+  const std::size_t shift = mpz_sizeinbase(x.get_den_mpz_t(), 2) - 1;
+  if (mpz_scan1(x.get_den_mpz_t(), 0) != shift || shift > kMostBits || mpz_sizeinbase(numerator, 2) > kMostBits)
+    return std::nullopt;
+  thread_local mpz_class rest, part;
+  const double high = mpz_get_d(numerator);
+  mpz_set_d(part.get_mpz_t(), high);
+  mpz_sub(rest.get_mpz_t(), numerator, part.get_mpz_t());
+  const double low = mpz_get_d(rest.get_mpz_t());
+  double below;
+  const double near = qd::quick_two_sum(high, low, below), scale = std::ldexp(1.0, -static_cast<int>(shift));
+  const bool is_exact = mpz_cmp_d(rest.get_mpz_t(), low) == 0;
+  return WideBall(dd_real(near * scale, below * scale),
+                  is_exact ? 0 : Rounding<dd_real>::OfProduct(low * scale));
+}
+
 template <>
 inline WideBall BallAround(const Rational& x) {
+  if (const auto ball = BallAroundDyadic(x)) return *ball;
   const double high = x.get_d();
   if (IsShortInteger(x)) return WideBall(high);
   if (std::isinf(high)) return {0, std::numeric_limits<double>::infinity()};

@@ -109,9 +109,15 @@ bool Clip(const SceneDesign& design, const SceneCell& cell, int line, LinePiece&
 
 constexpr LinePiece kWholeLine = {{-1000000, 1}, {1000000, 1}};
 
-bool IsCell(const SceneDesign& design, const SceneCell& cell) {
+// Sets the edges of a cell; false if they enclose nothing.
+bool SetEdges(const SceneDesign& design, SceneCell& cell) {
   int edges = 0;
-  for (int line = 0; line < kSceneLines; ++line) edges += EdgeOf(design, cell, line).has_value();
+  for (int line = 0; line < kSceneLines; ++line) {
+    LinePiece piece = kWholeLine;
+    const bool has_edge = cell.side[line] != 0 && Clip(design, cell, line, piece);
+    cell.edge[line] = has_edge ? std::optional(piece) : std::nullopt;
+    edges += has_edge;
+  }
   return edges >= 3;
 }
 
@@ -123,8 +129,8 @@ bool IsLong(const SceneLine& line, const LinePiece& piece) {
 }
 
 void AddInterface(int line, int lower, int upper, SceneDesign& design) {
-  LinePiece piece = kWholeLine;
-  if (!Clip(design, design.cell[upper], line, piece)) return;
+  if (!design.cell[upper].edge[line]) return;
+  LinePiece piece = *design.cell[upper].edge[line];
   if (lower != kTheWorld && !Clip(design, design.cell[lower], line, piece)) return;
   if (!IsLong(design.lines[line], piece)) return;
   SceneInterface& interface = design.interface[design.interfaces++];
@@ -215,7 +221,7 @@ bool DrawArrangement(int contacts, bool plain, SceneDesign& design, Choices& cho
   for (SceneLine& line : design.lines) line.unit = design.grain.unit;
   SetSides(design);
   for (int c = 0; c < design.cells; ++c) {
-    if (!IsCell(design, design.cell[c])) return false;
+    if (!SetEdges(design, design.cell[c])) return false;
   }
   FindInterfaces(design);
   return PlaceContacts(contacts, design, choices);
@@ -241,7 +247,7 @@ RigidBody<Rational> WallBody(const SceneDesign& design, int wall) {
   const SceneLine& line = design.lines[wall];
   std::optional<LinePiece> whole;
   for (int c = 0; c < design.cells; ++c) {
-    const auto edge = EdgeOf(design, design.cell[c], wall);
+    const auto& edge = design.cell[c].edge[wall];
     if (!edge) continue;
     if (!whole) whole = edge;
     if (Less(edge->from, whole->from)) whole->from = edge->from;
@@ -304,12 +310,6 @@ Scene<Rational> SceneOf(const SceneDesign& design, std::span<const Rational> mu)
 }
 
 }  // namespace
-
-std::optional<LinePiece> EdgeOf(const SceneDesign& design, const SceneCell& cell, int line) {
-  LinePiece piece = kWholeLine;
-  if (cell.side[line] == 0 || !Clip(design, cell, line, piece)) return std::nullopt;
-  return piece;
-}
 
 SceneDesign DrawSceneDesign(int contacts, const SceneGrain& grain, bool gravity_only, Choices& choices) {
   SceneDesign design;

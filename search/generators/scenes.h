@@ -78,6 +78,7 @@ struct SceneInterface {
 
 struct SceneCell {
   std::array<int, kSceneLines> side{};  // 1 above, -1 below the line, 0 where it does not matter
+  std::array<std::optional<LinePiece>, kSceneLines> edge;  // on each line; empty where it has none
   int fill = 0;  // corners of the cell are drawn to fill / SceneGrain::fill of their way from the mean
   SmallFraction mass = {1, 1};  // kg
   std::array<int, 3> load{};    // applied force, N, and moment, N m
@@ -95,9 +96,6 @@ struct SceneDesign {
 // A design of exactly so many contacts, 1 to 8. Every body but the first touches one before it, and one touches
 // the floor.
 SceneDesign DrawSceneDesign(int contacts, const SceneGrain& grain, bool gravity_only, Choices& choices);
-
-// The edge of the cell on this line, empty if it has none.
-std::optional<LinePiece> EdgeOf(const SceneDesign& design, const SceneCell& cell, int line);
 
 // The scene of the problem that Generate (generators.h) makes of the same choices; empty unless `id` is
 // kScenes or kFineScenes. Walls that nothing touches are left out.

@@ -110,7 +110,7 @@ SceneBody<Scalar> MakeSceneBody(const SceneDesign& design, int c) {
   PointList<Scalar> all;
   Vector2<Scalar> mean = MakeVector2<Scalar>(Scalar(0), Scalar(0));
   for (int line = 0; line < kSceneLines; ++line) {
-    const auto edge = EdgeOf(design, cell, line);
+    const auto& edge = cell.edge[line];
     if (!edge) continue;
     // The end where the edge starts, anticlockwise: every corner of the cell once.
     all.Add(PointOf<Scalar>(design.lines[line], Value<Scalar>(cell.side[line] > 0 ? edge->to : edge->from)));

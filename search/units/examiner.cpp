@@ -27,8 +27,8 @@ void Examiner::RunAgain(std::int64_t index, std::size_t policy, Outcome inexact,
   const Place place = {index, policy, inexact, drawn};
   // The first rung seldom tells what rounding did not.
   const Rung first = suspected ? Rung::kDoubleDouble : Rung::kDouble;
-  if (Decide(place, problem, Filter(problem, policy, {first, Rung::kDoubleDouble}), suspected) ==
-      Outcome::kSolved)
+  const Rungs rungs = {first, Rung::kExact, /*with_rationals=*/false};
+  if (Decide(place, problem, Filter(problem, policy, rungs), suspected) == Outcome::kSolved)
     collector_.FindOfDoubles(place, wrong, problem);
 }
 
@@ -69,7 +69,7 @@ void Examiner::RunOverIntervals(std::int64_t index, std::size_t policy, const Ve
 
 Regenerated Examiner::DrawAgain(std::int64_t index) {
   const Spending spending(collector_.meter(), &ProcessorTime::generation);
-  return Regenerate(campaign_, collector_.unit(), index);
+  return Regenerate(campaign_, collector_.task(), collector_.unit(), index);
 }
 
 InexactAnswer Examiner::RunInSpace(const ExactProblem& problem, std::size_t policy) {
@@ -107,7 +107,7 @@ OnRung Examiner::Filter(const ExactProblem& problem, std::size_t policy, const R
 Outcome Examiner::Decide(const Place& place, const ExactProblem& problem, const OnRung& filtered,
                          bool suspected) {
   const Verdict& verdict = filtered.verdict;
-  const bool certified = filtered.rung != Rung::kExact && verdict.outcome != Outcome::kUndecided;
+  const bool certified = filtered.by_balls && verdict.outcome != Outcome::kUndecided;
   const bool drawn = !suspected || IsDrawn(DrawOf(place.index));
   if (drawn || !certified) return Examine(place, problem, certified ? &verdict : nullptr, suspected, drawn);
   collector_.CountVerdict(place, verdict.outcome, suspected);
@@ -121,6 +121,8 @@ void Examiner::Confirm(const Place& place, const ExactProblem& problem, const On
   const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
   const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
   if (!FindUnsolved(place, verdict, run.pivots, problem)) return;
+  // Records have an entry of what is compared beyond double-doubles, as where rationals decide.
+  if (filtered.rung == Rung::kExact) collector_.agreement();
   const ExactAnswer complete = methods_.complete_filtered(problem, campaign_.limits);
   CompareAnswers(place, verdict.outcome, problem, {{complete, AnswerBy("baraff", verdict.outcome)}, {}});
 }

@@ -20,7 +20,10 @@ Choices ChoicesOf(const Campaign& campaign, std::int64_t unit, std::int64_t inde
 }  // namespace
 
 Regenerated Regenerate(const Campaign& campaign, std::int64_t unit, std::int64_t index) {
-  const Task task = TaskOf(Schedule(campaign), unit);
+  return Regenerate(campaign, TaskOf(Schedule(campaign), unit), unit, index);
+}
+
+Regenerated Regenerate(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index) {
   Choices choices = ChoicesOf(campaign, unit, index);
   Regenerated made;
   made.drawn = Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, SurroundingsOf(campaign),

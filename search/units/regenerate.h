@@ -20,6 +20,8 @@ struct Regenerated {
 };
 
 Regenerated Regenerate(const Campaign& campaign, std::int64_t unit, std::int64_t index);
+// The same where the task of the unit is known.
+Regenerated Regenerate(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index);
 
 // A problem that was regenerated as a file, with its scene where it has one.
 ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "certify/exact/long_float.h"
 #include "certify/exact/wide_ball.h"
 #include "search/generators/choices.h"
 
@@ -16,8 +17,10 @@ namespace {
 
 Rational Exactly(double x) { return Rational(x); }
 Rational Exactly(const dd_real& x) { return Rational(x.x[0]) + Rational(x.x[1]); }
+Rational Exactly(const LongFloat& x) { return x.Exactly(); }
 bool IsFinite(double x) { return std::isfinite(x); }
 bool IsFinite(const dd_real& x) { return std::isfinite(x.x[0]) && std::isfinite(x.x[1]); }
+bool IsFinite(const LongFloat&) { return true; }
 
 template <class Number>
 bool Encloses(const Ball<Number>& ball, const Rational& x) {
@@ -49,7 +52,7 @@ struct Known {
   Ball<Number> ball;
 };
 
-// x o y, empty where the ball does not tell that y is not zero.
+// x o y, empty where the ball does not tell that y is not zero, or what it is.
 template <class Number>
 std::optional<Known<Number>> Combined(int operation, const Known<Number>& x, const Known<Number>& y) {
   switch (operation) {
@@ -85,7 +88,12 @@ int CheckFormulas(int reach, int formulas) {
       };
       const int operation = static_cast<int>(choices.Integer(0, 3));
       const Known<Number>&x = pick(), &y = pick();
-      const auto result = Combined(operation, x, y);
+      std::optional<Known<Number>> result;
+      try {
+        result = Combined(operation, x, y);
+      } catch (const UnsureSign&) {
+        REQUIRE(std::is_same_v<Number, LongFloat>);  // beyond its reach
+      }
       if (!result) continue;
       CAPTURE(formula, step, operation, reach, result->ball.radius());
       REQUIRE(Encloses(result->ball, result->exact));
@@ -99,14 +107,14 @@ int CheckFormulas(int reach, int formulas) {
 }
 
 TEMPLATE_TEST_CASE("balls: they enclose what rationals compute, from the least to the largest doubles", "",
-                   double, dd_real) {
+                   double, dd_real, LongFloat) {
   CHECK(CheckFormulas<TestType>(0, 3000) > 15000);
   CHECK(CheckFormulas<TestType>(60, 3000) > 10000);
   CHECK(CheckFormulas<TestType>(500, 3000) > 3000);
   CheckFormulas<TestType>(1074, 3000);
 }
 
-TEMPLATE_TEST_CASE("balls: ends about a ball are doubles on either side", "", double, dd_real) {
+TEMPLATE_TEST_CASE("balls: ends about a ball are doubles on either side", "", double, dd_real, LongFloat) {
   Choices choices(5);
   for (int i = 0; i < 3000; ++i) {
     const Rational x = Draw(choices, 100) / 7;
@@ -119,9 +127,11 @@ TEMPLATE_TEST_CASE("balls: ends about a ball are doubles on either side", "", do
   CHECK(HighEnd(Ball<TestType>(3)) == 3);
 }
 
-TEMPLATE_TEST_CASE("balls: zero by structure stays zero, and nothing else becomes it", "", double, dd_real) {
+TEMPLATE_TEST_CASE("balls: zero by structure stays zero, and nothing else becomes it", "", double, dd_real,
+                   LongFloat) {
   using Number = Ball<TestType>;
-  const Number third = BallAround<TestType>(Rational(1, 3)), tiny = BallAround<TestType>(PowerOfTwo(-1074));
+  const int least = std::is_same_v<TestType, LongFloat> ? -900 : -1074;
+  const Number third = BallAround<TestType>(Rational(1, 3)), tiny = BallAround<TestType>(PowerOfTwo(least));
   for (const Number& x : {third, tiny, -third, Number(7)}) {
     CHECK((Number(0) * x).IsZero());
     CHECK((x * Number(0)).IsZero());
@@ -140,6 +150,20 @@ TEST_CASE("balls: double-doubles tell what doubles do not") {
   const Rational x = Rational(1, 3) + Rational("1/100000000000000000000");
   CHECK_FALSE((BallAround<double>(x) - BallAround<double>(Rational(1, 3))).TellsSign());
   CHECK((BallAround<dd_real>(x) - BallAround<dd_real>(Rational(1, 3))).Sign() == 1);
+}
+
+TEST_CASE("balls: long floats tell what double-doubles do not, and refuse what is beyond the doubles") {
+  const Rational third(1, 3), x = third + PowerOfTwo(-400);
+  CHECK_FALSE((BallAround<dd_real>(x) - BallAround<dd_real>(third)).TellsSign());
+  CHECK((BallAround<LongFloat>(x) - BallAround<LongFloat>(third)).Sign() == 1);
+  CHECK((BallAround<LongFloat>(third) - BallAround<LongFloat>(x)).Sign() == -1);
+  CHECK_FALSE((BallAround<LongFloat>(third + PowerOfTwo(-600)) - BallAround<LongFloat>(third)).TellsSign());
+  const LongBall tiny = BallAround<LongFloat>(PowerOfTwo(-1074));  // below its reach, and not zero
+  CHECK_FALSE(tiny.IsZero());
+  CHECK_FALSE(tiny.TellsSign());
+  const LongBall huge = BallAround<LongFloat>(PowerOfTwo(900));
+  CHECK_THROWS_AS(huge * huge, UnsureSign);
+  CHECK_FALSE(BallAround<LongFloat>(PowerOfTwo(1030)).TellsSign());
 }
 
 TEMPLATE_TEST_CASE("balls: what is beyond the doubles decides nothing", "", double, dd_real) {

@@ -205,7 +205,7 @@ TEST_CASE("filtered: of problem after problem the verdict is that of rationals, 
         const Verdict exact = RunExact(problem, options).verdict;
         for (const Rung first : {Rung::kDouble, Rung::kDoubleDouble, Rung::kExact}) {
           CAPTURE(name, generator.name, index, Name(first));
-          const auto [verdict, rung] = RunPublishedFiltered(problem, options, {.first = first});
+          const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, options, {.first = first});
           CHECK(verdict.outcome == exact.outcome);
           CHECK(verdict.statistics == exact.statistics);
           CHECK(verdict.start == exact.start);
@@ -219,6 +219,31 @@ TEST_CASE("filtered: of problem after problem the verdict is that of rationals, 
   CHECK(decided[0] > 0);
   CHECK(decided[1] > 0);
   CHECK(decided[2] > 0);
+}
+
+TEST_CASE("filtered: floats of 512 bits decide what double-doubles leave open, as rationals do") {
+  const Rungs narrow = {Rung::kDouble, Rung::kDoubleDouble};
+  const Rungs wide = {Rung::kDoubleDouble, Rung::kExact, /*with_rationals=*/false};
+  int decided = 0;
+  for (int index = 0; index < 150; ++index) {
+    const ExactProblem problem = Random<Rational>(GeneratorId::kConditioned, 8, index);
+    CAPTURE(index);
+    if (RunPublishedFiltered(problem, {}, narrow).by_balls) continue;
+    const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, {}, wide);
+    CHECK(by_balls == (verdict.outcome != Outcome::kUndecided));
+    if (!by_balls) continue;
+    ++decided;
+    CHECK(rung == Rung::kExact);
+    const Verdict exact = RunExact(problem, {}).verdict;
+    CHECK(verdict.outcome == exact.outcome);
+    CHECK(verdict.statistics == exact.statistics);
+    CHECK(verdict.start == exact.start);
+    CHECK(verdict.period == exact.period);
+    const InexactAnswer path = RunEnclosed("baraff", problem, {}, rung, KeepTrace::kYes);
+    CHECK(path.outcome == exact.outcome);
+    CHECK(static_cast<std::int64_t>(path.pivots.size()) == exact.statistics.steps);
+  }
+  CHECK(decided > 2);
 }
 
 TEST_CASE("filtered: complete driving counts as over rationals, and its forces solve the problem") {
@@ -279,7 +304,7 @@ TEST_CASE("filtered: accelerations that follow from others are known to be zero,
     problem.b = J * y;
     CAPTURE(seed);
     const Verdict exact = RunExact(problem, {}).verdict;
-    const auto [verdict, rung] = RunPublishedFiltered(problem, {});
+    const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, {});
     CHECK(verdict.outcome == exact.outcome);
     CHECK(verdict.statistics == exact.statistics);
     wide += rung == Rung::kDoubleDouble;
