@@ -133,6 +133,17 @@ def mix_in_words(result):
                  f"{threads[1]['processors busy']:.2f} processors at their disposal.")
 
 
+def search_rate(program):
+    """The default campaign, two threads, and what a unit takes of the store."""
+    result = program.bench("search", "--contacts", 2, "--repeat", 1)
+    store = result["store"][0]
+    return mix_in_words(result) + "\n\n" + prose(
+        f"A unit takes {three(store['a unit'])} ms of processor time, and of these it has the store to itself for "
+        f"{three(store['with the store, mean'])} ms in the mean, {three(store['median'])} ms in the median, "
+        f"{three(store['most, a block closed'])} ms where it closes a block: one store keeps "
+        f"{store['cores that it keeps busy']:.0f} cores busy.")
+
+
 def lanes(program):
     result = program.bench("search")
     sets = [name for name in result["lanes"][0] if name != "generator"]

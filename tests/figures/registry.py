@@ -78,6 +78,8 @@ MEASUREMENTS = [
                 "What the first search of the README prints, its beginning and its end."),
     Measurement("ten-billion", "long", search.ten_billion,
                 "The largest campaign: what it found, and that everything audited was solved."),
+    Measurement("search-rate", "minutes", bench.search_rate,
+                "Problems a second of the campaign that names nothing, and the time that a unit has the store."),
     Measurement("search-speed", "minutes", bench.search_speed,
                 "Problems a second of a search, by generator and contacts; what its time goes to; beside Siconos's "
                 "Lemke.", SICONOS),
