@@ -143,9 +143,9 @@ std::vector<std::string> NumbersIn(Language language, const Values& values) {
   return numbers;
 }
 
-// A on at most four lines.
+// A on at most three lines.
 std::string MatrixIn(Language language, const ProblemShown& posed) {
-  constexpr int kMostLines = 4;
+  constexpr int kMostLines = 3;
   const int rows = posed.rows(), by_line = (rows + kMostLines - 1) / kMostLines;
   std::string text;
   for (int i = 0; i < rows; ++i) {
@@ -161,9 +161,16 @@ std::string MatrixIn(Language language, const ProblemShown& posed) {
 }
 
 template <class Values>
+std::string NamedInC(const char* name, const Values& values) {
+  return fmt::format("{}[] = {{{}}}", name, fmt::join(NumbersIn(Language::kC, values), ", "));
+}
+template <class Values>
 std::string ArrayInC(const char* type, const char* name, const Values& values) {
-  return fmt::format("static const {} {}[] = {{{}}};\n", type, name,
-                     fmt::join(NumbersIn(Language::kC, values), ", "));
+  return fmt::format("static const {} {};\n", type, NamedInC(name, values));
+}
+template <class Values>
+std::string TwoArraysInC(const char* name, const Values& values, const char* other, const Values& others) {
+  return fmt::format("static const double {}, {};", NamedInC(name, values), NamedInC(other, others));
 }
 template <class Values>
 std::string ListInPython(const char* name, const Values& values) {
@@ -194,15 +201,15 @@ std::string DataInC(const ProblemShown& posed, const Finding& finding, bool take
     for (const auto& contact : posed.problem.contacts) kinds.push_back(static_cast<int>(contact.kind));
     text += ArrayInC("double", "mu", CoefficientsOf(posed)) + ArrayInC("int", "kinds", kinds);
   }
-  text += ArrayInC("double", "low", posed.low) + ArrayInC("double", "high", posed.high);
+  text += TwoArraysInC("low", posed.low, "high", posed.high) + "\n";
   if (takes_contacts || posed.HasFriction()) text += ArrayInC("int", "findex", posed.findex);
   text += posed.right.f
               ? fmt::format("/* {} */ ", posed.right.how) + ArrayInC("double", "right", *posed.right.f)
               : "";
   if (!IsJudged(finding.kind)) return text;
   if (!posed.limits.empty()) text += ArrayInC("double", "limit", posed.limits);
-  return text + "/* what acts at each row: a force, an acceleration */\n" +
-         ArrayInC("double", "force", posed.force_units) + ArrayInC("double", "acts", posed.acceleration_units);
+  return text + TwoArraysInC("force", posed.force_units, "acts", posed.acceleration_units) +
+         " /* that act at each row: a force, an acceleration */\n";
 }
 
 std::string DataInPython(const ProblemShown& posed, const Finding& finding, bool is_library) {

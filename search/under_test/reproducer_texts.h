@@ -30,33 +30,26 @@ inline constexpr const char* kSolveByLibrary = R"(static int solve(double* f) {
 }
 )";
 
-inline constexpr const char* kIncludesOfOde = R"(#include <ode/common.h>
-#include <ode/error.h>
+inline constexpr const char* kIncludesOfOde = R"(#include <ode/error.h>
 #include <vector>
 )";
 inline constexpr const char* kSolveWithOde =
     R"(class dxWorldProcessMemArena; /* exported by ODE 0.16.2, declared by no header */
-extern void dxSolveLCP(dxWorldProcessMemArena*, unsigned n, double* A, double* pairs_bx, double* w, unsigned unbounded,
-                       double* pairs_low_high, int* friction_index);
-extern size_t dxEstimateSolveLCPMemoryReq(unsigned n, bool outer_w);
+extern void dxSolveLCP(dxWorldProcessMemArena*, unsigned, double* A, double* bx, double* w, unsigned, double*, int*);
 static void complain(int, const char* message, va_list values) { throw (vprintf(message, values), puts(""), 0); }
+alignas(64) static char pool[1 << 20]; /* more than it takes */
 static int solve(double* f) {
-  const int stride = ROWS > 1 ? ((ROWS - 1) | 3) + 1 : ROWS;
+  const int stride = ((ROWS - 1) | 3) + 1;
   std::vector<double> m(ROWS * stride), pairs(2 * ROWS), bounds(2 * ROWS), w(ROWS);
-  std::vector<double> pool(dxEstimateSolveLCPMemoryReq(ROWS, true) / sizeof(double) + 64);
-  @COPY@struct { void *current, *begin, *end, *buffer; const void* manager; } arena = {
-    pool.data(), pool.data(), pool.data() + pool.size(), nullptr, nullptr};
-  for (int i = 0; i < ROWS; ++i) {
-    pairs[2 * i] = -b[i], bounds[2 * i] = low[i], bounds[2 * i + 1] = high[i];
-    for (int j = 0; j < ROWS; ++j) m[i * stride + j] = A[i * ROWS + j];
-  }
+  @COPY@struct { void *current, *begin, *end, *buffer; const void* manager; } arena = {pool, pool, pool + sizeof pool, 0, 0};
+  for (int i = 0; i < ROWS * ROWS; ++i) m[i / ROWS * stride + i % ROWS] = A[i];
+  for (int i = 0; i < ROWS; ++i) pairs[2 * i] = -b[i], bounds[2 * i] = low[i], bounds[2 * i + 1] = high[i];
   dSetMessageHandler(complain), dSetDebugHandler(complain);
-  int solved = 1;
   try {
     dxSolveLCP((dxWorldProcessMemArena*)&arena, ROWS, m.data(), pairs.data(), w.data(), 0, bounds.data(), @INDEX@);
-  } catch (int) { solved = 0; }
+  } catch (int) { return 0; }
   for (int i = 0; i < ROWS; ++i) f[i] = pairs[2 * i + 1];
-  return solved;
+  return 1;
 }
 )";
 
@@ -171,8 +164,7 @@ static void miss(int row, double by, const char* what) {
 }
 static void judge(const double* f, const double* a) { /* a >= 0 where f is at its low bound, ... */
   for (int i = 0; i < ROWS; ++i) {
-    const double @BOUNDS@;@ROUND@
-    const int normal = high[i] > 1e300;
+    const double normal = high[i] > 1e300, @BOUNDS@;@ROUND@
     miss(i, fmax(lo - f[i], f[i] - hi) / force[i], normal ? "pulls" : "is beyond the limit of friction");
     if (a[i] > 0) miss(i, fmin((f[i] - lo) / force[i], a[i] / acts[i]), normal ? "presses and separates" : "slips below its limit");
     if (a[i] < 0) miss(i, fmin((hi - f[i]) / force[i], -a[i] / acts[i]), normal ? "moves inward" : "slips below its limit");
@@ -183,18 +175,16 @@ static void judge(const double* f, const double* a) { /* a >= 0 where f is at it
 inline constexpr const char* kMainInC = R"(int main(void) {
   double f[ROWS] = {0}, a[ROWS];
   const int solved = solve(f);
+  printf("it %s\nrow %24s %24s %24s\n", solved ? "calls this solved:" : "gives up:", "f", "a = A f + b", "@KNOWN@");
   for (int i = 0; i < ROWS; ++i) {
     long double sum = b[i];
     for (int j = 0; j < ROWS; ++j) sum += (long double)A[i * ROWS + j] * f[j];
-    a[i] = (double)sum;
+    printf("%3d %24.17g %24.17g %24.17g\n", i, f[i], a[i] = (double)sum, @RIGHT@);
   }
-  printf("it %s\nrow %24s %24s %24s\n", solved ? "calls this solved:" : "gives up:", "f", "a = A f + b", "@KNOWN@");
-  for (int i = 0; i < ROWS; ++i) printf("%3d %24.17g %24.17g %24.17g\n", i, f[i], a[i], @RIGHT@);
 @VERDICT@}
 )";
 inline constexpr const char* kVerdictOfJudgeInC = R"(  if (solved) judge(f, a);
-  printf("%s%s\n", *said ? "WRONG: " : "not seen here: what was found", said);
-  return *said != 0;
+  return printf("%s%s\n", *said ? "WRONG: " : "not seen here: what was found", said), *said != 0;
 )";
 inline constexpr const char* kVerdictNotFiniteInC = R"(  int wrong = 0;
   for (int i = 0; i < ROWS; ++i) wrong += solved && !isfinite(f[i]);

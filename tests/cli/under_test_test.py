@@ -157,7 +157,7 @@ class UnderTest(cli.TestCase):
                 text = program.read_text()
                 self.assertLessEqual(len(text.splitlines()), 60)
                 arrays = {name: values.replace(". /", "/").split(",") for name, values in
-                          re.findall(r"static const \w+ (\w+)\[\] = \{([^}]*)\}", text)}
+                          re.findall(r"(\w+)\[\] = \{([^}]*)\}", text)}
                 exact = {name: [Fraction(x.replace(" ", "").rstrip(".")) for x in arrays[name]] for name in ("A", "b", "right")}
                 A = [Fraction(x) for row in self.matrix(problem) for x in row]
                 self.assertEqual((exact["A"], exact["b"]), (A, [Fraction(x) for x in problem["b"]]))
