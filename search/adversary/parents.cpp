@@ -60,8 +60,18 @@ std::vector<std::int64_t> SequenceOf(const Blocks& blocks) {
 
 bool HasChoices(const ProblemFile& file) { return file.origin && file.origin->contains("choices"); }
 
-Candidate CandidateOfFile(const ProblemFile& file, const std::string& source) {
-  return HasChoices(file) ? CandidateOf(file, source) : NearPsd(file.problem, source);
+bool Has(const Campaign& campaign, GeneratorId generator) {
+  return std::ranges::find(campaign.generators, generator) != campaign.generators.end();
+}
+
+// `campaign`: of psd alone it takes what other generators chose as NearPsd; null: as it is.
+Candidate CandidateOfFile(const ProblemFile& file, const std::string& source, const Campaign* campaign) {
+  if (HasChoices(file)) {
+    Candidate candidate = CandidateOf(file, source);
+    if (campaign == nullptr || Has(*campaign, candidate.generator) || !Has(*campaign, GeneratorId::kPsd))
+      return candidate;
+  }
+  return NearPsd(file.problem, source);
 }
 
 Candidate CandidateOfFinding(const Campaign& campaign, const Finding& finding, const std::string& source) {
@@ -69,7 +79,7 @@ Candidate CandidateOfFinding(const Campaign& campaign, const Finding& finding, c
   return HasChoices(file) ? CandidateOf(file, source) : CandidateOf(campaign, finding.unit, finding.index);
 }
 
-Candidate CandidateOfOne(const std::string& source) {
+Candidate CandidateOfOne(const std::string& source, const Campaign* campaign) {
   if (const auto named = FindNamed(source)) {
     const Store store = Store::OpenToRead(named->store);
     return CandidateOfFinding(CampaignOf(store.identity(), named->store), named->finding, source);
@@ -77,9 +87,9 @@ Candidate CandidateOfOne(const std::string& source) {
   if (source.ends_with(".json")) {
     const Json json = ParseJson(ReadText(source), source);
     if (json.is_object() && json.value("format", Json()) == "stiction-record" && json.contains("problem"))
-      return CandidateOfFile(ParseProblem(json["problem"].dump(), source + ": problem"), source);
+      return CandidateOfFile(ParseProblem(json["problem"].dump(), source + ": problem"), source, campaign);
   }
-  return CandidateOfFile(ReadProblem(source), source);
+  return CandidateOfFile(ReadProblem(source), source, campaign);
 }
 
 std::vector<Candidate> AllOfStore(const std::string& source) {
@@ -102,7 +112,7 @@ std::vector<Candidate> AllOfFolder(const std::string& source) {
   std::vector<Candidate> all;
   for (const std::string& file : files) {
     try {
-      all.push_back(CandidateOfOne(file));
+      all.push_back(CandidateOfOne(file, nullptr));
     } catch (const InputError&) {
     }
   }
@@ -113,7 +123,7 @@ std::vector<Candidate> AllOfFolder(const std::string& source) {
 
 std::vector<Candidate> ParentsFrom(const std::string& source, const Campaign& campaign) {
   const bool is_folder = std::filesystem::is_directory(source);
-  if (!is_folder && !IsStore(source)) return {CandidateOfOne(source)};
+  if (!is_folder && !IsStore(source)) return {CandidateOfOne(source, &campaign)};
   std::vector<Candidate> parents = is_folder ? AllOfFolder(source) : AllOfStore(source);
   std::erase_if(parents, [&](const Candidate& parent) { return !ObstacleOf(parent, campaign).empty(); });
   if (parents.empty())

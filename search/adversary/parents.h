@@ -16,7 +16,8 @@ namespace stiction {
 
 // Of what `search --from` names:
 //
-//   a problem in any form that is read, a record   its choices, where its origin has them; otherwise NearPsd
+//   a problem in any form that is read, a record   its choices, where its origin has them; otherwise, and where
+//                                                  the campaign has psd and not their generator, NearPsd
 //   STORE:FINDING                                  the choices that the finding was drawn with
 //   STORE                                          the best of a search with an objective, or all findings
 //   a folder                                       its files NAME.json, in the order of their names

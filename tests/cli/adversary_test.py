@@ -96,6 +96,8 @@ class Adversary(cli.TestCase):
         shutil.copy(record, folder)
         shutil.copy(cli.ROOT / "corpus/space/ray-under-slip-literal.json", folder)
         self.assertEqual(parents(record)[0], parents(folder)[0])
+        near, _ = parents(cli.ROOT / "corpus/records/period-2-contacts.json")  # of near-degenerate, which is not searched
+        self.assertEqual((near[0]["generator"], near[0]["contacts"]), ("psd", 2))
         near, best = parents(cli.ROOT / "corpus/cycle-every-policy-mu-1.json", contacts=(3,))
         self.assertEqual((near[0]["generator"], near[0]["contacts"]), ("psd", 2))
         self.assertTrue(best)  # beside a third contact it loops
