@@ -196,13 +196,18 @@ std::string DataInC(const ProblemShown& posed, const Finding& finding, bool take
                                  posed.problem.contacts.size(), posed.problem.dimension);
   text += fmt::format("static const double A[] = {{{}}};\n", MatrixIn(Language::kC, posed));
   text += ArrayInC("double", "b", posed.problem.b);
+  std::string doubles = TwoArraysInC("low", posed.low, "high", posed.high);
   if (takes_contacts) {
     std::vector<int> kinds;
     for (const auto& contact : posed.problem.contacts) kinds.push_back(static_cast<int>(contact.kind));
-    text += ArrayInC("double", "mu", CoefficientsOf(posed)) + ArrayInC("int", "kinds", kinds);
+    doubles.back() = ',';
+    doubles += " " + NamedInC("mu", CoefficientsOf(posed)) + ";";
+    text +=
+        fmt::format("static const int {}, {};\n", NamedInC("kinds", kinds), NamedInC("findex", posed.findex));
+  } else if (posed.HasFriction()) {
+    text += ArrayInC("int", "findex", posed.findex);
   }
-  text += TwoArraysInC("low", posed.low, "high", posed.high) + "\n";
-  if (takes_contacts || posed.HasFriction()) text += ArrayInC("int", "findex", posed.findex);
+  text += doubles + "\n";
   text += posed.right.f
               ? fmt::format("/* {} */ ", posed.right.how) + ArrayInC("double", "right", *posed.right.f)
               : "";

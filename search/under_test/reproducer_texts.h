@@ -100,16 +100,12 @@ inline constexpr const char* kIncludesOfSiconosFriction = R"(#include <stdlib.h>
 )";
 inline constexpr const char* kSolveWithSiconosFriction =
     R"(static int solve(double* f) { /* a frictionless contact: mu = 0, and tangents that are coupled with nothing */
-  enum { N = CONTACTS * DIMENSION };
-  double m[N * N] = {0}, q[N] = {0}, forces[N] = {0}, velocities[N] = {0}, coefficients[CONTACTS];
-  int at[ROWS];
+  enum { N = CONTACTS * DIMENSION }; int at[ROWS];
+  double m[N * N] = {0}, q[N] = {0}, forces[N] = {0}, velocities[N] = {0};
   for (int i = 0, row = 0; i < N; ++i)
-    if (i % DIMENSION == 0 || kinds[i / DIMENSION] == 2) at[row++] = i;
-    else m[i * N + i] = 1;
+    if (i % DIMENSION == 0 || kinds[i / DIMENSION] == 2) q[i] = b[row], at[row++] = i; else m[i * N + i] = 1;
   for (int i = 0; i < ROWS * ROWS; ++i) m[at[i % ROWS] * N + at[i / ROWS]] = A[i]; /* column after column */
-  for (int i = 0; i < ROWS; ++i) q[at[i]] = b[i];
-  for (int i = 0; i < CONTACTS; ++i) coefficients[i] = mu[i];
-  FrictionContactProblem problem = {DIMENSION, CONTACTS, NM_create_from_data(NM_DENSE, N, N, m), q, coefficients};
+  FrictionContactProblem problem = {DIMENSION, CONTACTS, NM_create_from_data(NM_DENSE, N, N, m), q, (double*)mu};
   SolverOptions* options = solver_options_create(@SICONOS_METHOD@);
   options->dparam[SICONOS_DPARAM_TOL] = 1e-9;@SICONOS_LIMIT@
   const int info = fc@SICONOS_DIMENSION@d_driver(&problem, forces, velocities, options);
