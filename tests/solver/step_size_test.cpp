@@ -87,7 +87,7 @@ struct Maintained {
   Rational f_n, f_f, a;  // at a distance of 1/2 from the limit
 };
 
-const std::vector<Maintained>& Limits() {
+const std::vector<Maintained>& MaintainedRows() {
   static const std::vector<Maintained> table = {
       {"C: fN falls to zero", 2, kClamped, kSeparating, 1, 2, kHalf, 0, 0},
       {"NC: aN falls to zero", 2, kSeparating, kClamped, -1, 2, 0, 0, kHalf},
@@ -116,7 +116,7 @@ Case MaintainedCase(const Maintained& m, const Rational& gap) {
 
 TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where its row of the table says", "",
                    float, double, long double, Rational) {
-  for (const Maintained& m : Limits()) {
+  for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, kHalf), kHalf, m.row, m.wants);
   }
@@ -124,7 +124,7 @@ TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where i
 
 TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go on gives a zero step", "", float,
                    double, long double, Rational) {
-  for (const Maintained& m : Limits()) {
+  for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, 0), 0, m.row, m.wants);
   }
@@ -132,7 +132,7 @@ TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go o
 
 TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is in no set, does not limit", "",
                    float, double, long double, Rational) {
-  for (const Maintained& m : Limits()) {
+  for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     for (const bool opposite : {true, false}) {
       Case c = MaintainedCase(m, 0);
