@@ -215,7 +215,7 @@ ExactProblem OfRay() {
   return problem;
 }
 
-TEST_CASE("rays in space: proved where nothing limits a step; altered, a fault in its place") {
+TEST_CASE("rays in space: proved where nothing limits a step, a fault where altered") {
   const Policy literal = WithSlip(Slip::kLiteral), redirect = WithSlip(Slip::kRedirect);
   const auto ray = ProveRayInSpace(OfRay(), literal, {});
   REQUIRE(ray.has_value());
