@@ -182,13 +182,13 @@ bug("factored", "py-psd-negative", "D[i] >= 0", "True", "psd: D may be negative"
 bug("check_definite", "py-definite", "pivot > 0", "pivot >= 0", "definite: semidefinite is enough")
 bug("stated", "py-value", "value == computed", "True", "any value is stated")
 bug("check_not_definite", "py-not-definite-zero", "any(x)", "True", "not-definite: by x = 0")
-bug("check_not_in_range", "py-not-in-range-kernel", """equal(times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")""",
+bug("check_not_in_range", "py-not-in-range-kernel", """equal(long_times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")""",
     "None", "not-in-range: y'A may be anything")
 bug("in_dual_cone", "py-h-cone", "gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents)", "True", "h: dual cones without friction")
 bug("solved", "py-factors-definite", "need(pivot > 0", "need(pivot != 0", "factors: masses may be negative")
 bug("factors", "py-factors-matrix", "A[i].get(j, 0) == problem.A[i][j]", "True", "factors: of any A")
 bug("factors", "py-factors-free", """equal(problem.b, b, "$.problem.b", "J w + c")""", "None", "factors: of any b")
-bug("check_not_h", "py-not-h-kernel", """equal(times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",
+bug("check_not_h", "py-not-h-kernel", """equal(long_times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",
     "not-h: A v may be anything")
 bug("forces", "py-accelerations", """equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")""",
     "None", "solutions: any a")
