@@ -190,7 +190,7 @@ bug("factors", "py-factors-matrix", "A[i].get(j, 0) == problem.A[i][j]", "True",
 bug("factors", "py-factors-free", """equal(problem.b, b, "$.problem.b", "J w + c")""", "None", "factors: of any b")
 bug("check_not_h", "py-not-h-kernel", """equal(long_times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",
     "not-h: A v may be anything")
-bug("forces", "py-accelerations", """equal(a, [x + y for x, y in zip(times(problem.A, f), problem.b)], "$.witness.a", "A f + b")""",
+bug("forces", "py-accelerations", """equal(a, [x + y for x, y in zip(long_times(problem.A, f), problem.b)], "$.witness.a", "A f + b")""",
     "None", "solutions: any a")
 bug("check_in_space", "py-space-complementarity", "fN >= 0 and aN >= 0 and fN * aN == 0", "fN >= 0 and aN >= 0",
     "in space, without fN aN = 0")
