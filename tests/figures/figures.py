@@ -68,6 +68,13 @@ def commit(path):
     return re.sub(r"^(\w{7})\w*", r"\1", version.split()[2].rstrip(","))
 
 
+def are_peers_old(program):
+    """Whether the program of the packages of others is older than a library that it is linked with, or is not there."""
+    peers = program.with_name("stiction-peers")
+    libraries = [path.stat().st_mtime for path in program.parent.glob("*/libstiction_*.a")]
+    return not peers.exists() or any(peers.stat().st_mtime < built for built in libraries)
+
+
 def machine():
     with open("/proc/cpuinfo") as file:
         models = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
@@ -191,6 +198,8 @@ def refresh(options):
             file.write_text(replaced(file.read_text(), figure, block(figure, options.program)))
         elif "dirty" in commit(options.program):
             sys.exit(f"{figure.name}: {options.program} was built of no commit; commit, build")
+        elif figure.peers and are_peers_old(Path(options.program)):
+            sys.exit(f"{figure.name}: stiction-peers is not of these libraries; ./run bench --suite peers builds it")
         else:
             file.write_text(measured(figure, options.program, options.problems))
         print(f"{figure.file}: {figure.name}: written", flush=True)

@@ -5,6 +5,7 @@ Takes the path of the program, and that of the sources, as the other scripts do.
 
 import argparse
 import math
+import os
 import re
 import sys
 import tempfile
@@ -102,6 +103,18 @@ class MeasuredFiles(unittest.TestCase):
             options = argparse.Namespace(names=["night"], program=str(program), problems=None)
             with self.assertRaisesRegex(SystemExit, "was built of no commit"):
                 figures.refresh(options)
+
+    def test_an_old_program_of_peers_measures_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program, peers, library = (Path(folder) / name for name in ("stiction", "stiction-peers", "a/libstiction_a.a"))
+            self.assertTrue(figures.are_peers_old(program))
+            library.parent.mkdir()
+            for path, built in ((peers, 2), (library, 1)):
+                path.touch()
+                os.utime(path, (built, built))
+            self.assertFalse(figures.are_peers_old(program))
+            os.utime(library, (3, 3))
+            self.assertTrue(figures.are_peers_old(program))
 
     def test_the_first_screen_shows_what_was_measured(self):
         def code(name):
