@@ -71,7 +71,8 @@ def commit(path):
 def are_peers_old(program):
     """Whether the program of the packages of others is older than a library that it is linked with, or is not there."""
     peers = program.with_name("stiction-peers")
-    libraries = [path.stat().st_mtime for path in program.parent.glob("*/libstiction_*.a")]
+    libraries = [path.stat().st_mtime for folder in ("bench", "certify", "corpus", "scene", "search", "solver")
+                 for path in (program.parent / folder).glob("libstiction_*.a")]
     return not peers.exists() or any(peers.stat().st_mtime < built for built in libraries)
 
 

@@ -106,7 +106,7 @@ class MeasuredFiles(unittest.TestCase):
 
     def test_an_old_program_of_peers_measures_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
-            program, peers, library = (Path(folder) / name for name in ("stiction", "stiction-peers", "a/libstiction_a.a"))
+            program, peers, library = (Path(folder) / name for name in ("stiction", "stiction-peers", "solver/libstiction_a.a"))
             self.assertTrue(figures.are_peers_old(program))
             library.parent.mkdir()
             for path, built in ((peers, 2), (library, 1)):
