@@ -12,14 +12,15 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 
-// Of one pattern, whose diagonal is `diagonal` times as large as its other entries.
-SparseLu::Matrix Drawn(std::mt19937& random, double diagonal) {
+// Of one pattern, three entries a column: those of one place are `ratio` times as large as the others.
+SparseLu::Matrix Drawn(std::mt19937& random, int large = 0, double ratio = 10) {
   constexpr int kSize = 30;
   std::uniform_real_distribution<double> number(0.5, 1);
   SparseLu::Matrix K(kSize, kSize);
   for (int j = 0; j < kSize; ++j) {
+    int place = 0;
     for (const int i : {j, (j + 1) % kSize, (j + 7) % kSize})
-      K.insert(i, j) = number(random) * (i == j ? diagonal : 1);
+      K.insert(i, j) = number(random) * (place++ == large ? ratio : 1);
   }
   K.makeCompressed();
   return K;
@@ -32,9 +33,9 @@ double ErrorOf(const SparseLu::Matrix& K, const Eigen::VectorXd& x, const Eigen:
 TEST_CASE("sparse lu: pivots of one matrix serve others of its pattern") {
   std::mt19937 random(1);
   SparseLu lu;
-  lu.Order(Drawn(random, 10));
+  lu.Order(Drawn(random));
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const SparseLu::Matrix K = Drawn(random, 10);
+    const SparseLu::Matrix K = Drawn(random);
     const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(K.rows(), -1, 2);
     REQUIRE(lu.Factor(K));
     CHECK(ErrorOf(K, lu.Solve(K, y), y) < 1e-13);
@@ -44,10 +45,10 @@ TEST_CASE("sparse lu: pivots of one matrix serve others of its pattern") {
 TEST_CASE("sparse lu: pivots that do not suit are chosen anew") {
   std::mt19937 random(2);
   SparseLu lu;
-  lu.Order(Drawn(random, 10));
-  for (const double diagonal : {10.0, 1e-13, 10.0, 0.0}) {
-    INFO(diagonal);
-    const SparseLu::Matrix K = Drawn(random, diagonal);
+  lu.Order(Drawn(random));
+  for (const int large : {0, 1, 2, 0}) {
+    INFO(large);
+    const SparseLu::Matrix K = Drawn(random, large, 1e13);
     const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(K.rows(), -1, 2);
     REQUIRE(lu.Factor(K));
     CHECK(ErrorOf(K, lu.Solve(K, y), y) < 1e-10);
@@ -57,7 +58,7 @@ TEST_CASE("sparse lu: pivots that do not suit are chosen anew") {
 TEST_CASE("sparse lu: answers do not depend on matrices before, once pivots are forgotten") {
   std::mt19937 random(3);
   SparseLu used;
-  const SparseLu::Matrix first = Drawn(random, 1e-13), second = Drawn(random, 10);
+  const SparseLu::Matrix first = Drawn(random, 1, 1e13), second = Drawn(random);
   const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(first.rows(), -1, 2);
   used.Order(first);
   REQUIRE(used.Factor(first));
@@ -71,7 +72,7 @@ TEST_CASE("sparse lu: answers do not depend on matrices before, once pivots are 
 
 TEST_CASE("sparse lu: a singular matrix has no factors") {
   std::mt19937 random(4);
-  SparseLu::Matrix K = Drawn(random, 10);
+  SparseLu::Matrix K = Drawn(random);
   for (SparseLu::Matrix::InnerIterator of(K, 3); of; ++of) of.valueRef() = 0;
   SparseLu lu;
   CHECK_FALSE(lu.Factor(K));  // nothing is ordered
