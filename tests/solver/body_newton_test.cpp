@@ -126,6 +126,23 @@ TEST_CASE("body newton: answers do not depend on the runs before") {
   }
 }
 
+TEST_CASE("body newton: nor on those of the same pattern, whose pivots were others") {
+  Draw draw(6);
+  const std::vector<Contact<double>> contacts(6, {ContactKind::kSliding, 3000, {0.6, 0.8}});
+  BodyNewton<double> used;
+  int loaded = 0;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(18, 12, [&draw] { return draw.Number(); });
+    const Eigen::VectorXd w = Eigen::VectorXd::NullaryExpr(12, [&draw] { return draw.Number(); });
+    const auto problem = InFactors(3, contacts, J, w, Eigen::VectorXd::Zero(18));
+    BodyNewton<double> fresh;
+    CHECK(used.Run(problem).statistics == fresh.Run(problem).statistics);
+    CHECK(used.f() == fresh.f());
+    loaded += used.f().norm() > 0;
+  }
+  CHECK(loaded > 20);
+}
+
 TEST_CASE("body newton: a contact in other units is the same contact") {
   // J -> D J, c -> D c with a power of two per contact: the same run, forces over D, to the bit.
   Draw draw(5);
