@@ -22,6 +22,7 @@
 #include "corpus/output_error.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
+#include "solver/keep_memory.h"
 
 namespace stiction {
 namespace {
@@ -100,6 +101,7 @@ std::string AsTyped(std::string text) {
 }
 
 int RunProgram(int argc, char** argv, int (*run)(int argc, char** argv)) {
+  KeepFreedMemory();
   mp_set_memory_functions(Allocate, Reallocate, Free);
   const PlainText out(std::cout), errors(std::cerr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write

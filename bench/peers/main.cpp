@@ -22,6 +22,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
+#include "solver/keep_memory.h"
 
 namespace stiction {
 namespace {
@@ -225,6 +226,7 @@ int Main(int argc, char** argv) {
 }  // namespace stiction
 
 int main(int argc, char** argv) {
+  stiction::KeepFreedMemory();  // for peers, too
   try {
     return stiction::Main(argc, argv);
   } catch (const stiction::InputError& error) {

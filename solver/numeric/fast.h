@@ -8,12 +8,13 @@
 //   sweep     a few projected Gauss-Seidel sweeps from f = 0, or the cells of an earlier solution
 //   exchange  the cells give a linear system M u = -b for the forces that they leave free; every contact
 //             that then violates its cell moves to the next: block pivoting, or a semismooth Newton method.
-//             A closing contact starts at the limit that opposes its tangential acceleration.
+//             A closing contact starts at the limit that opposes its tangential acceleration. With friction,
+//             where M is singular: of all forces about the least ones, and all contacts stick at first.
 //   active    without friction, A symmetric, where exchanging has not ended or M is singular: the active set
 //             method of Lawson and Hanson; f'Af / 2 + b'f decreases until a >= 0. A contact enters for a
 //             violation above the tolerance only, so that M stays regular where A is singular; M is updated,
 //             not factored.
-//   resweep   with friction, where exchanging has not ended: more sweeps, and again
+//   resweep   with friction, where exchanging has not ended and M is regular: more sweeps, and again
 //   published the published algorithm, for the kinds that it is built for, within a budget of pivots
 //   complete  complete driving, for the same
 //
@@ -128,8 +129,13 @@ class FastSolver {
   bool ExchangeUntilSettled();
   bool SolveCells();
   void ListUnknowns();
-  bool SolveSymmetric();
-  bool SolveGeneral();
+  bool Shift();
+  bool FactorCells();
+  bool IsRefined();
+  bool IsSolvedAsSymmetric() const;
+  bool FactorSymmetric();
+  bool FactorGeneral();
+  void SolveFactored(Scalar* y) const;
   void SetForces();
   void SetAccelerations();
   int ListMoves();
@@ -160,9 +166,11 @@ class FastSolver {
 
   // The reduced system of the cells.
   int size_ = 0;
-  std::vector<int> unknowns_;  // rows of A whose force is free; without friction rows, also contacts
-  std::vector<Scalar> limit_;  // fF / fN of a normal whose friction follows it, or 0
-  std::vector<Scalar> u_;      // forces of the unknowns
+  std::vector<int> unknowns_;       // rows of A whose force is free; without friction rows, also contacts
+  std::vector<Scalar> limit_;       // fF / fN of a normal whose friction follows it, or 0
+  std::vector<Scalar> u_;           // forces of the unknowns
+  std::vector<Scalar> correction_;  // of u_, where M is shifted
+  Scalar shift_ = Scalar(0);        // of M's diagonal, relative to A's
   bool symmetric_ = false, dropped_ = false;
   DenseFactor<Scalar> factor_;
   Units<Scalar> units_;

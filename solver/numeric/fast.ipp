@@ -23,6 +23,9 @@ inline constexpr std::int64_t kPublishedWork =
 inline constexpr int kFewRows = 16;        // up to which complete driving costs less than more sweeps
 inline constexpr int kRounds = 3;          // of sweeps and exchanges
 inline constexpr double kRounding = 1e-9;  // of the largest A_ii: asymmetry that rounding makes
+inline constexpr double kShift = 1e-9;     // of the diagonal, where columns of M are dependent
+inline constexpr double kRefined = 1e-13;  // of the largest b_i
+inline constexpr int kRefinements = 4;     // of forces of a shifted M
 inline constexpr int kPatience = 4;        // exchanges in a row without fewer violations than ever,
 inline constexpr int kSingles = 10;        // then exchanges of one contact each
 
@@ -60,6 +63,7 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
     unknowns_.resize(rows + 1);
     limit_.resize(rows + 1);
     u_.resize(rows + 1);
+    correction_.resize(rows + 1);
     factor_.Reserve(rows);
   }
   int row = 0;
@@ -69,6 +73,7 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
   }
   frictionless_ = rows == contacts;
   distrust_ = false;
+  shift_ = Scalar(0);
   max_A_ = max_b_ = Scalar(0);
   for (int i = 0; i < rows; ++i) {
     f_[i] = Scalar(0);
@@ -114,7 +119,7 @@ bool FastSolver<Scalar>::Find() {
   if (ExchangeUntilSettled()) return true;
   if (frictionless_ && !distrust_) return IsSymmetric(Scalar(kRounding) * max_A_) && ActiveSet();
   const int rounds = problem_->rows() > kFewRows ? kRounds : 1;
-  for (int round = 1; round < rounds; ++round) {
+  for (int round = 1; round < rounds && !(shift_ > 0); ++round) {
     Project();
     SetAccelerations();
     Sweep(kMoreSweeps);
@@ -286,9 +291,12 @@ bool FastSolver<Scalar>::ExchangeUntilSettled() {
     if (!SolveCells()) return false;
     const int moves = ListMoves();
     if (moves == 0) return true;
+    if (dropped_ && Shift()) continue;
     if (moves < fewest) {
       fewest = moves;
       patience = kPatience;
+    } else if (shift_ > 0) {
+      return false;
     } else {
       --patience;
     }
@@ -299,12 +307,19 @@ bool FastSolver<Scalar>::ExchangeUntilSettled() {
   return false;
 }
 
-// Forces and accelerations of the cells. Returns false where they are not determined.
+// Forces and accelerations of the cells. Returns false where they are not determined. With friction, where
+// columns of M depend on others, M + shift D is factored instead, D the diagonal of A, and u refined until
+// M u = -b: of all such forces about the least, which as a rule are well inside their cones.
 template <class Scalar>
 bool FastSolver<Scalar>::SolveCells() {
-  ListUnknowns();
-  if (!(symmetric_ && !distrust_ ? SolveSymmetric() : SolveGeneral())) return false;
+  if (!FactorCells() && !(Shift() && FactorCells())) return false;
+  SolveFactored(u_.data());
   SetForces();
+  for (int left = shift_ > 0 ? kRefinements : 0; left > 0 && !IsRefined(); --left) {
+    SolveFactored(correction_.data());
+    for (int j = 0; j < size_; ++j) u_[j] += correction_[j];
+    SetForces();
+  }
   Scalar max_f = max_b_ * unit_;
   for (int j = 0; j < size_; ++j) max_f = std::max(max_f, Scalar(Abs(u_[j])));
   least_f_ = zero_f_ * max_f;
@@ -341,21 +356,59 @@ void FastSolver<Scalar>::ListUnknowns() {
   size_ = size;
 }
 
+// For the rest of the run; all closed contacts stick at first. Whether there is something to try anew.
 template <class Scalar>
-bool FastSolver<Scalar>::SolveSymmetric() {
-  for (int j = 0; j < size_; ++j) {
-    const Scalar* from = problem_->A.data() + static_cast<std::ptrdiff_t>(unknowns_[j]) * problem_->rows();
-    Scalar* to = factor_.Column(j);
-    for (int i = j; i < size_; ++i) to[i] = from[unknowns_[i]];
-  }
-  ++verdict_.statistics.factorizations;
-  dropped_ = factor_.FactorSymmetric(size_, pivot_) > 0;
-  factor_.SolveSymmetric(u_.data());
+bool FastSolver<Scalar>::Shift() {
+  if (frictionless_ || shift_ > 0) return false;
+  shift_ = Scalar(kShift);
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (cells_[i] != Cell::kBreak && HasFrictionCells(problem_->contacts[i])) cells_[i] = Cell::kStick;
   return true;
 }
 
 template <class Scalar>
-bool FastSolver<Scalar>::SolveGeneral() {
+bool FastSolver<Scalar>::FactorCells() {
+  ListUnknowns();
+  return IsSolvedAsSymmetric() ? FactorSymmetric() : FactorGeneral();
+}
+
+// Whether accelerations of the unknowns are rounding; if not, correction_ is what a step is made of.
+template <class Scalar>
+bool FastSolver<Scalar>::IsRefined() {
+  Scalar missed(0);
+  for (int j = 0; j < size_; ++j) {
+    Scalar a = a_[unknowns_[j]];
+    correction_[j] = -a;
+    missed = std::max(missed, Scalar(Abs(a)));
+  }
+  return missed <= Scalar(kRefined) * max_b_;
+}
+
+template <class Scalar>
+bool FastSolver<Scalar>::IsSolvedAsSymmetric() const {
+  return symmetric_ && !distrust_;
+}
+
+template <class Scalar>
+void FastSolver<Scalar>::SolveFactored(Scalar* y) const {
+  IsSolvedAsSymmetric() ? factor_.SolveSymmetric(y) : factor_.SolveGeneral(y);
+}
+
+template <class Scalar>
+bool FastSolver<Scalar>::FactorSymmetric() {
+  for (int j = 0; j < size_; ++j) {
+    const Scalar* from = problem_->A.data() + static_cast<std::ptrdiff_t>(unknowns_[j]) * problem_->rows();
+    Scalar* to = factor_.Column(j);
+    for (int i = j; i < size_; ++i) to[i] = from[unknowns_[i]];
+    to[j] += shift_ * from[unknowns_[j]];
+  }
+  ++verdict_.statistics.factorizations;
+  dropped_ = factor_.FactorSymmetric(size_, pivot_) > 0;
+  return true;
+}
+
+template <class Scalar>
+bool FastSolver<Scalar>::FactorGeneral() {
   const int rows = problem_->rows();
   for (int j = 0; j < size_; ++j) {
     const Scalar* from = problem_->A.data() + static_cast<std::ptrdiff_t>(unknowns_[j]) * rows;
@@ -366,12 +419,11 @@ bool FastSolver<Scalar>::SolveGeneral() {
     } else {
       for (int i = 0; i < size_; ++i) to[i] = from[unknowns_[i]] + limit * from[unknowns_[i] + rows];
     }
+    to[j] += shift_ * from[unknowns_[j]];
   }
   ++verdict_.statistics.factorizations;
   dropped_ = false;
-  if (!factor_.FactorGeneral(size_, pivot_)) return false;
-  factor_.SolveGeneral(u_.data());
-  return true;
+  return factor_.FactorGeneral(size_, pivot_);
 }
 
 // f of the unknowns, and a = A f + b.

@@ -9,7 +9,10 @@
 #define STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "solver/problem/units.h"
@@ -26,6 +29,17 @@ template <class Scalar>
 int ExponentOf(const Scalar& x) {
   using std::ilogb;
   return x > 0 ? ilogb(x) : 0;
+}
+
+// x 2^e, rounded as ldexp does, by a product where 2^e is a normal number.
+template <class Scalar>
+Scalar TimesPowerOfTwo(const Scalar& x, int e) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    constexpr int kBias = 1023;
+    if (e > -kBias && e <= kBias) return x * std::bit_cast<double>(static_cast<std::uint64_t>(e + kBias) << 52);
+  }
+  using std::ldexp;
+  return ldexp(x, e);
 }
 
 // Half the exponent of the largest A_ii of each contact, by row; one for all if they may not differ.
@@ -60,7 +74,7 @@ RowScale FindScale(const Problem& problem, bool uniform = false) {
     most = std::max(most, largest[group(i)]);
   }
   ForEachEntry(problem.A, [&](int i, int j, const Scalar& x) {
-    coupling = std::max(coupling, Scalar(ldexp(Abs(x), -half[i] - half[j])));
+    coupling = std::max(coupling, TimesPowerOfTwo(Scalar(Abs(x)), -half[i] - half[j]));
   });
   // Of an A that is not semidefinite entries beside the diagonal may be large beside it.
   const int rest = std::max(0, ExponentOf(coupling));
@@ -82,11 +96,10 @@ void ScaleBy(Vector& values, const std::vector<int>& exponents, int extra = 0) {
 template <class Problem>
 Problem Scaled(Problem problem, const RowScale& scale) {
   using Scalar = typename Problem::Vector::Scalar;
-  using std::ldexp;
   ForEachEntry(problem.A, [&](int i, int j, const Scalar& x) {
-    if (x != 0) problem.A.coeffRef(i, j) = ldexp(x, scale.f[j] - scale.a[i]);
+    if (x != 0) problem.A.coeffRef(i, j) = TimesPowerOfTwo(x, scale.f[j] - scale.a[i]);
   });
-  for (int i = 0; i < problem.rows(); ++i) problem.b[i] = ldexp(problem.b[i], -scale.a[i]);
+  for (int i = 0; i < problem.rows(); ++i) problem.b[i] = TimesPowerOfTwo(problem.b[i], -scale.a[i]);
   return problem;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "corpus/rounded.h"
+#include "solver/problem/row_scale.h"
 #include "solver/solve.h"
 #include "tests/judge.h"
 #include "tests/support.h"
@@ -187,6 +188,14 @@ TEST_CASE("gate: a number that is not finite, and rounding beyond the bound, are
     }
   }
   CHECK(GateOf(Jam(4), Eigen::Vector4d(1e18, 1, 1e18, 1)) > 1e-8);  // 1e18 cancels with an error of a tenth
+}
+
+TEST_CASE("gate: a number times a power of two is what ldexp makes of it, also where it leaves the range") {
+  for (const double x : {1.0, -1.7, 0x1.fffffffffffffp1023, 0x1.8p-1022, 5e-324, 0x1.0000000000001p-1022})
+    for (int e = -2200; e <= 2200; ++e) {
+      const double product = TimesPowerOfTwo(x, e);
+      if (product != std::ldexp(x, e)) FAIL("2^" << e << " times " << x);
+    }
 }
 
 }  // namespace
