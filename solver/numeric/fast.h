@@ -159,6 +159,7 @@ class FastSolver {
   std::vector<Cell> cells_, next_;
   std::vector<int> row_of_;                                             // normal row by contact
   bool frictionless_ = false;                                           // one row per contact
+  bool is_given_ = false;                                               // the first cells are an earlier run's
   bool distrust_ = false;                                               // A is not symmetric
   Scalar max_A_ = Scalar(0), max_b_ = Scalar(0), unit_ = Scalar(0);     // unit_ = 1 / max_A_
   Scalar pivot_ = Scalar(0), zero_a_ = Scalar(0), zero_f_ = Scalar(0);  // tolerances, relative,

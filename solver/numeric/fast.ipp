@@ -97,7 +97,8 @@ bool HasFrictionCells(const Contact<Scalar>& contact) {
 
 template <class Scalar>
 void FastSolver<Scalar>::Guess(std::span<const Cell> guess) {
-  if (guess.size() != cells_.size()) {
+  is_given_ = guess.size() == cells_.size();
+  if (!is_given_) {
     Sweep(FirstSweeps(problem_->rows()));
     return TakeCells();
   }
@@ -356,12 +357,13 @@ void FastSolver<Scalar>::ListUnknowns() {
   size_ = size;
 }
 
-// For the rest of the run; all closed contacts stick at first. Whether there is something to try anew.
+// For the rest of the run; unless cells were given, all closed contacts stick at first. Whether there is
+// something to try anew.
 template <class Scalar>
 bool FastSolver<Scalar>::Shift() {
   if (frictionless_ || shift_ > 0) return false;
   shift_ = Scalar(kShift);
-  for (std::size_t i = 0; i < cells_.size(); ++i)
+  for (std::size_t i = 0; i < cells_.size() && !is_given_; ++i)
     if (cells_[i] != Cell::kBreak && HasFrictionCells(problem_->contacts[i])) cells_[i] = Cell::kStick;
   return true;
 }
