@@ -209,8 +209,10 @@ std::vector<std::string> Transforms(const SceneInSpace<double>&, const Screen&) 
 
 Html Placed(const SceneInSpace<double>& scene, const Screen& screen) {
   Html bodies;
-  for (const auto& piece : FromBackToFront(scene))
-    bodies += piece.shape->IsRound() ? DrawnBall(screen, piece) : DrawnPolyhedron(screen, piece);
+  for (const auto& piece : FromBackToFront(scene)) {
+    const Html drawn = piece.shape->IsRound() ? DrawnBall(screen, piece) : DrawnPolyhedron(screen, piece);
+    bodies += piece.fixed ? Tag("g", {{"class", "fixed"}})(drawn) : drawn;  // pages darken it in the dark
+  }
   Html html = Tag("g", {{"stroke", "black"}, {"stroke-width", "0.7"}, {"stroke-linejoin", "round"}})(bodies);
   for (const auto& joint : scene.joints) html += Drawn(screen, scene, joint);
   return html;

@@ -40,7 +40,12 @@ std::vector<Pixels2> ArrowsOf(const Json& picture, const std::vector<double>& fo
 double Length(const Pixels2& arrow) { return std::hypot(arrow[0], arrow[1]); }
 
 Html TextAt(double x, double y, const std::string& text, const char* anchor = "start") {
-  return Tag("text", {{"x", Pixels(x)}, {"y", Pixels(y)}, {"text-anchor", anchor}})(text);
+  return Tag("text", {{"x", Pixels(x)},
+                      {"y", Pixels(y)},
+                      {"text-anchor", anchor},
+                      {"stroke", "white"},
+                      {"stroke-width", "4"},
+                      {"paint-order", "stroke"}})(text);
 }
 
 Html ArrowAt(const Json& at, const Pixels2& arrow, double newton) {

@@ -24,6 +24,7 @@ import markdown
 
 ROOT = Path(__file__).resolve().parents[2]
 WEB = ROOT / "reports/web"
+SHEETS = ("page.css", "scroll.css", "site.css")
 MARK = ".stiction-site"  # in a folder that this program may write again
 PAGES = {"index.html": "Story", "gallery.html": "Gallery", "paste.html": "Paste your matrix", "theorem.html": "Theorem",
          "report/index.html": "Report", "docs/index.html": "Documentation"}
@@ -89,6 +90,7 @@ class Site:
     def page(self, name, title, body, side=""):
         """`body` is HTML; links in it are as from the page itself."""
         root = "../" * name.count("/")
+        sheets = "\n".join(f'<link rel="stylesheet" href="{root}{sheet}">' for sheet in SHEETS)
         self.write(name, f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -97,8 +99,7 @@ class Site:
 <meta name="color-scheme" content="light dark">
 <title>{html.escape(title)} - stiction</title>
 <link rel="icon" href="data:,">
-<link rel="stylesheet" href="{root}page.css">
-<link rel="stylesheet" href="{root}site.css">
+{sheets}
 </head>
 <body>
 {navigation(name)}
@@ -254,7 +255,8 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
         body = markdown.markdown(text, output_format="html", extensions=[
             "fenced_code", "tables", "sane_lists", "toc"], extension_configs={"toc": {"slugify": slug}})
         body = re.sub(r'<a href="([^"]+)">(.*?)</a>', lambda link: self.link(name, *link.groups()), body, flags=re.S)
-        body = re.sub(r'(<img [^>]*src=")([^"]+)"', lambda image: f'{image[1]}{self.copied(name, image[2])}"', body)
+        body = re.sub(r'<img alt="([^"]*)" src="([^"]+)"[^>]*>', lambda found: self.picture(name, *found.groups()),
+                      body)
         body = re.sub(r"<table>.*?</table>", r'<div class="scroll" tabindex="0">\g<0></div>', body, flags=re.S)
         body = body.replace("<pre>", '<pre tabindex="0">')
         heading = re.search(r"<h1[^>]*>(.*?)</h1>", body, re.S)
@@ -286,6 +288,12 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
         else:
             return f"{text} (<code>{html.escape(target.removesuffix('/README.md'))}</code>)"
         return f'<a href="{href}">{text}</a>'
+
+    def picture(self, name, alt, path):
+        """A picture of a text, within its page, so that it is dark where the page is."""
+        svg = (ROOT / posixpath.dirname(name) / path).read_text()
+        svg = svg.replace("<svg ", f'<svg role="img" aria-label="{alt}" ', 1)
+        return f'<span class="drawing picture">{own_ids(svg, Path(path).stem)}</span>'
 
     def copied(self, name, path):
         """Copies a file that a text names; its address from the page of the text."""
@@ -404,8 +412,8 @@ def number(x):
 
 def build(program, out, store):
     site = Site(program, out)
-    for file in (WEB / "src/page.css", WEB / "src/site.css"):
-        shutil.copy(file, out)
+    for sheet in SHEETS:
+        shutil.copy(WEB / "src" / sheet, out)
     site.story()
     site.gallery()
     site.theorem()

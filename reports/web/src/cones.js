@@ -54,7 +54,7 @@ const indexed = text => text.split(/_(N|Fx|Fy|F)\b/).map((part, i) => i % 2 === 
 
 // The name of an axis: "f", an index, and the unit.
 const axisName = (place, index) => svgElement(
-    'text', place, 'f', svgElement('tspan', {dy: 3, 'font-size': '8px'}, index), svgElement('tspan', {dy: -3}, ', N'));
+    'text', place, 'f', svgElement('tspan', {class: 'index', dy: 3}, index), svgElement('tspan', {dy: -3}, ', N'));
 
 // ---- A picture -------------------------------------------------------------------------------
 

@@ -74,6 +74,36 @@ function sets(run, state) {
               members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
 }
 
+// What cells mean (solver/complete/cells.h), by their letter.
+const kCells = {
+  '?': 'not yet',
+  B: 'parted',
+  S: 'sticks',
+  I: 'sticks',
+  '+': 'at its upper limit',
+  '-': 'at its lower limit',
+  V: 'at its limit, in a corner',
+  E: 'at its limit, on an edge',
+  0: 'without friction',
+  H: 'held'
+};
+
+// Of complete driving: the cell of each contact along this piece. Those of one cell share a mark.
+function cells(step) {
+  if (step.word === undefined || step.word === '') return null;
+  const contacts = new Map();
+  step.word.split(' ').forEach((cell, i) => contacts.set(cell, [...contacts.get(cell) ?? [], i + 1]));
+  return element(
+      'p', {class: 'sets'},
+      ...[...contacts].map(
+          ([cell, numbers]) => element(
+              'span', {class: cell === '?' ? 'empty' : null}, element('b', {}, cell.replace('-', '−')),
+              ` ${kCells[cell[0]] ?? 'cell'}: ${numbers.join(', ')}`)));
+}
+
+// Why a variable is driven; its cells stand below.
+const withoutCells = why => why.replace(/, cells [^,]*(?=,|$)/, '');
+
 const stageOf = step => step.word === undefined ? 'drive' : 'stage';
 
 const kMostMarks = 8;  // links to steps of one kind
@@ -97,7 +127,7 @@ function outlook(run, link) {
                  element(
                      'p', {class: 'why'},
                      element('b', {}, first.entering === undefined ? `First, ${stageOf(first)} 1 ` : 'First '),
-                     ...typeset(why)),
+                     ...typeset(withoutCells(why))),
     element(
         'p', {class: 'outlook'}, `${plural(run.last, noun)}${drives}.`,
         ...marked(run, 'given up', 'A variable is given up', noun, link),
@@ -129,7 +159,7 @@ export function tellStep(run, state, link, how) {
         null :
         element(
             'p', {class: 'why'}, element('b', {}, step.entering === undefined ? `${stage} ${step.group} ` : ''),
-            ...typeset(why)),
+            ...typeset(withoutCells(why))),
     element(
         'p', {class: step.mark === '' ? 'event' : `event ${step.mark.replace(' ', '-')}`},
         element('span', {class: 's'}, element('i', {}, 's'), ' = ', number(step.step)), ' ',
@@ -140,6 +170,7 @@ export function tellStep(run, state, link, how) {
                 'p', {class: 'reading'}, 'Reading ', element('code', {}, `${reading.switch}=${reading.here}`),
                 ` (${reading.question}): ${reading.meaning}.`)),
     sets(run, state),
+    cells(step),
     recurrence(run, state, link),
   ].filter(Boolean);
 }
