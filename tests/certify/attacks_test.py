@@ -13,6 +13,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction
 from pathlib import Path
 
 SECONDS = 20  # on a busy machine; each takes a fraction of a second on an idle one
@@ -164,6 +165,27 @@ def of_prefixes(honest):
         yield name, edited(honest, "witness", "prefixes", value=value)
 
 
+ENDLESS = "endless: "  # of which every checker is asked
+
+
+def of_endless(honest, cycle):
+    """Of a run in space that never ends and repeats no state."""
+    witness = honest["witness"]
+    word, centre, radius = witness["word"], Fraction(witness["centre"][0]), Fraction(witness["radii"][0])
+    longer = witness["start"] + witness["period"]  # where the word does not lead
+    for name, key, value in (("no last step", "word", word[:-1]), ("a step more", "word", word + word[-1:]),
+                             ("another step", "word", ["F1 F1 CF"] + word[1:]), ("start", "start", longer),
+                             ("period", "period", 2 * witness["period"]), ("no period", "period", 0),
+                             ("few bits", "bits", 64), ("states", "kind", "states"),
+                             ("the other slip", "policy", "slip=redirect"), ("the opposite", "charts", [-1]),
+                             ("a box elsewhere", "centre", [str(centre + 2 * radius)]),
+                             ("a box without room", "radii", ["0"]), ("a box of many words", "radii", ["8"])):
+        yield ENDLESS + name, edited(honest, "witness", key, value=value)
+    yield ENDLESS + "another mu", edited(honest, "problem", "contacts", 0, "mu", value="1/7")
+    yield ENDLESS + "b", edited(honest, "problem", "b", 0, value="2")
+    yield ENDLESS + "a loop whose states recur", {**cycle, "claim": "endless"}
+
+
 def attacks(makers):
     counterexample = makers.make("cycle-every-policy-mu-1", "counterexample")
     cycle = makers.make("two-contact-cycle", "cycle")
@@ -177,6 +199,7 @@ def attacks(makers):
         yield from of_runs(honest)
     yield from of_long_runs(cycle, exponential)
     yield from of_prefixes(makers.make("no-solution-scripted-wedge", "solution-exists"))
+    yield from of_endless(makers.make("space/no-state-twice", "endless"), cycle)
     yield "a counterexample of another problem", {**counterexample, "problem": cycle["problem"]}
     yield OTHER_SOLUTION, edited(counterexample, "witness", "f", value=solution["witness"]["f"])
     yield "a cycle called a solution", {**cycle, "claim": "solution-exists"}
@@ -206,14 +229,15 @@ def refusals(attack, file, programs):
 
 
 def other_problem(makers, programs):
-    """An honest certificate, asked of another problem, and of its own."""
+    """Honest certificates, asked of another problem, and of their own."""
     certificate = makers.folder / "own.json"
-    certificate.write_text(json.dumps(makers.make("two-contact-cycle", "cycle")))
-    for name, command in programs.items():
-        for problem, expected in (("two-contact-cycle", 0), ("cycle-every-policy-mu-1", 1), ("README", 2)):
-            code = run(*command, certificate, "--problem", makers.corpus / f"{problem}.json").returncode
-            if code != expected:
-                yield f"{name}: --problem {problem}: exit {code}, expected {expected}"
+    for own, claim in (("two-contact-cycle", "cycle"), ("space/no-state-twice", "endless")):
+        certificate.write_text(json.dumps(makers.make(own, claim)))
+        for name, command in programs.items():
+            for problem, expected in ((own, 0), ("cycle-every-policy-mu-1", 1), ("README", 2)):
+                code = run(*command, certificate, "--problem", makers.corpus / f"{problem}.json").returncode
+                if code != expected:
+                    yield f"{name}: {claim}: --problem {problem}: exit {code}, expected {expected}"
 
 
 def main(stiction, sources):
@@ -229,7 +253,8 @@ def main(stiction, sources):
             file = makers.folder / "attack.json"
             content = content if isinstance(content, (str, bytes)) else json.dumps(content)
             file.write_bytes(content if isinstance(content, bytes) else content.encode())
-            asked = programs if extent == "all" else dict([list(programs.items())[count % len(programs)]])
+            every = extent == "all" or attack.startswith(ENDLESS)
+            asked = programs if every else dict([list(programs.items())[count % len(programs)]])
             failures += [f"{attack}: {failure}" for failure in refusals(attack, file, asked)]
     for failure in failures:
         print("FAILED:", failure)
