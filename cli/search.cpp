@@ -161,10 +161,10 @@ Campaign CampaignOf(const SearchVerb& verb) {
 
 // ---- Verbs -----------------------------------------------------------------------------------
 
-// For the end of a search, and for `status`.
-std::string SummaryOf(const Store& store, const std::string& file) {
+// For the end of a search, which knows the file of a solver under test, and for `status`.
+std::string SummaryOf(const Store& store, const std::string& file, const std::string& solver = kAnySolverFile) {
   if (!CampaignOf(store.identity(), file).objective.empty()) return OptimizedText(store, file);
-  return TestsSolver(store, file) ? SolverText(store, file) : SummaryText(store, file);
+  return TestsSolver(store, file) ? SolverText(store, file, solver) : SummaryText(store, file);
 }
 
 // Grave findings are an alarm.
@@ -230,7 +230,9 @@ std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> as
   for (std::int64_t unit = 0; unit < UnitsFor(campaign, *asked); ++unit)
     problems += UnitProblems(campaign, TaskOf(schedule, unit));
   if (problems == *asked) return "";
-  return fmt::format("; {} problems were asked for, {} fill whole units", Grouped(*asked), Grouped(problems));
+  return fmt::format(
+      "; {} problems were asked for, {} fill whole units; the same command with --problems above {} goes on",
+      Grouped(*asked), Grouped(problems), problems);
 }
 
 int RunSearchVerb(const SearchVerb& asked) {
@@ -265,7 +267,7 @@ int RunSearchVerb(const SearchVerb& asked) {
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
   } else {
-    std::cout << SummaryOf(store, o.store);
+    std::cout << SummaryOf(store, o.store, o.solver);
   }
   if (report.end == SearchEnd::kInterrupted) {
     fmt::print(std::cerr,

@@ -303,7 +303,9 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   text += fmt::format("  {} of {} groups kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
                       kept.finished + kept.pending, kept.finished, tests ? "seen again" : "certified");
   if (tests) text += GroupsText(store);
-  if (kept.pending > 0) text += fmt::format("  what is to go is finished by: {}\n", FinishCommand(file));
+  if (kept.pending > 0)
+    text += fmt::format("  what is to go is finished by: {}\n",
+                        tests ? FinishTestedCommand(file) : FinishCommand(file));
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);
   text += fmt::format(

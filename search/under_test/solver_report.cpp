@@ -167,7 +167,11 @@ bool TestsSolver(const Store& store, const std::string& file) {
   return !CampaignOf(store.identity(), file).solver.name.empty();
 }
 
-std::string SolverText(const Store& store, const std::string& file) {
+std::string FinishTestedCommand(const std::string& file, const std::string& solver) {
+  return fmt::format("{} --solver {}", FinishCommand(file), solver);
+}
+
+std::string SolverText(const Store& store, const std::string& file, const std::string& solver_file) {
   const TestedStore s = TestedStore::Of(store, file);
   const SolverUnderTest& solver = s.campaign.solver;
   std::string text = fmt::format(
@@ -195,10 +199,13 @@ std::string SolverText(const Store& store, const std::string& file) {
       text += fmt::format("  {:16} {:>12} problems: {}\n", value, Grouped(tally.problems), FailuresText(tally));
   }
   text = Folded(text + GroupsText(store));
+  if (s.totals.pending > 0)
+    text +=
+        fmt::format("What is not finished is finished by:\n    {}\n", FinishTestedCommand(file, solver_file));
   if (const std::vector<Finding> findings = BySize(store); !findings.empty())
     text += fmt::format(
-        "The same search again goes on. A finding as a problem file, and as a program:\n    {0} problem {1} "
-        "{2}\n"
+        "The same search with more --problems or --minutes goes on.\nA finding as a problem file, and as a "
+        "program:\n    {0} problem {1} {2}\n"
         "    {0} export {1}:{2} --reproducer c -o {2}.c\n",
         ProgramName(), file, findings.front().signature);
   return text;

@@ -339,6 +339,28 @@ class UnderTest(cli.TestCase):
         self.assertEqual(alone.code, 2)
         self.assertIn("--solver", alone.err)
 
+    def test_what_is_not_finished_is_finished_by_the_command_that_is_told(self):
+        told = self.search(self.toy("BUG_LIES"), "a.store", problems=4000, finishing=0)
+        self.assertEqual(told.code, 0, told.err)
+        status = cli.run("status", self.folder / "a.store")
+        command = rf"    stiction (search --store {re.escape(str(self.folder))}/a\.store --finish --solver )(\S+)\n"
+        for text, solver in ((told.out, str(self.toy("BUG_LIES"))), (status.out, "FILE")):
+            found = re.search("What is not finished is finished by:\n" + command, text)
+            self.assertIsNotNone(found, text)
+            self.assertEqual(found[2], solver)
+        done = cli.run(*(found[1] + str(self.toy("BUG_LIES"))).split())
+        self.assertEqual(done.code, 0, done.err)
+        self.assertTrue(all(finding["done"] for finding in self.findings("a.store")))
+        self.assertNotIn("not finished", done.out)
+
+    def test_more_problems_than_fill_whole_units_go_on(self):
+        for asked, fill, units in ((10, 4000, 1), (4001, 6000, 2)):
+            done = self.search(self.toy(), "a.store", problems=asked)
+            self.assertEqual(done.code, 0, done.err)
+            self.assertEqual(cli.run("status", self.folder / "a.store", "--json").json()["units"], units)
+            self.assertIn(f"{asked:,} problems were asked for, {fill:,} fill whole units; the same command with --problems "
+                          f"above {fill} goes on", done.err)
+
     # ---- Programs ----
 
     def test_the_example_is_a_program_and_converges_slowly(self):
