@@ -120,8 +120,8 @@ MEASUREMENTS = [
                 "is, by seed, with as many evaluations: `inf` where random problems have no value, `-` where "
                 "neither has, 0 where only random ones have; nothing was tuned on these seeds."),
     Measurement("adversary-solvers", "long", search.adversary_solvers,
-                "Solvers of other packages, and ours, under test: how often each fails on a million problems, and the "
-                "smallest problem of each failure.", PEERS),
+                "Solvers of other packages, and ours, under test: how often each fails, as rates in a million problems, "
+                "and the smallest problem of each failure.", PEERS),
     Measurement("generators-by-mu", "minutes", search.generators_by_mu,
                 "How often the policy `paper` loops on generators of abstract matrices and of bodies that may overlap, by "
                 "contacts and friction."),
