@@ -87,6 +87,7 @@ struct FrictionAt {
   std::array<Scalar, 2> f, a;
   Scalar error;  // bounds that of a
   Scalar r;      // unit of f over that of a; 0 where that of a is 0 or that of f infinite
+  bool on_line;  // in the plane, where friction has one component
 };
 
 // Of the circle where both move. On a line, as in the plane, that gains nothing.
@@ -105,7 +106,7 @@ Scalar MovedDistance(const FrictionAt<Scalar>& at) {
 // Friction of the circle, or in the plane, which is the same with a second component of zero.
 template <class Scalar>
 FrictionGap<Scalar> GapOfFriction(FrictionLaw law, const FrictionAt<Scalar>& at) {
-  const auto& [limit, f, a, error, r] = at;
+  const auto& [limit, f, a, error, r, on_line] = at;
   const Scalar none = Infinity<Scalar>(), force = Length(f[0], f[1]), speed = Length(a[0], a[1]);
   FrictionGap<Scalar> gap{std::max(Scalar(0), Scalar(force - limit)), none, none, none};
   if (!(limit < none)) return gap;
@@ -118,7 +119,8 @@ FrictionGap<Scalar> GapOfFriction(FrictionLaw law, const FrictionAt<Scalar>& at)
     gap.moved_acceleration = std::max(Scalar(0), Scalar((f[0] * a[0] + f[1] * a[1]) / force + error));
   }
   if (!(speed > error)) return gap;
-  const Scalar turn = 2 * error / speed;  // of the direction
+  const Scalar turn =
+      on_line ? Scalar(0) : Scalar(2 * error / speed);  // of the direction: of a line it is a sign
   if (coulomb) {
     const Scalar x = f[0] + limit * (a[0] / speed), y = f[1] + limit * (a[1] / speed);
     gap.distance = Length(x, y) + limit * turn;
@@ -150,11 +152,11 @@ class ContactErrors {
   ContactErrors(const Problem& problem, const Units<Scalar>& units, const Vector& f, const Vector& a, int i,
                 int row, const Scalar& rounding)
       : kind_(problem.contacts[i].kind), mu_(problem.contacts[i].mu) {
-    const int tangents = problem.contacts[i].HasFrictionRows() ? problem.dimension - 1 : 0;
+    tangents_ = problem.contacts[i].HasFrictionRows() ? problem.dimension - 1 : 0;
     fN_ = f[row];
     aN_ = a[row];
     normal_ = {units.acceleration(row), units.force(row), units.size(row), Scalar(rounding * units.size(row))};
-    for (int k = 0; k < tangents; ++k) {
+    for (int k = 0; k < tangents_; ++k) {
       const int at = row + 1 + k;
       fF_[k] = f[at];
       aF_[k] = a[at];
@@ -186,7 +188,8 @@ class ContactErrors {
       open.force = std::max(open.force, InUnits(Length(fF_[0], fF_[1]), friction_.force));
       const bool in_units = friction_.acceleration > 0 && friction_unit_ < Infinity<Scalar>();
       const Scalar r = in_units ? Scalar(friction_unit_ / friction_.acceleration) : Scalar(0);
-      FrictionGap<Scalar> gaps = gap(FrictionAt<Scalar>{limit_, fF_, aF_, friction_.rounding, r});
+      FrictionGap<Scalar> gaps =
+          gap(FrictionAt<Scalar>{limit_, fF_, aF_, friction_.rounding, r, tangents_ == 1});
       for (Scalar* distance : {&gaps.excess, &gaps.distance, &gaps.moved_force}) *distance += of_lengths_;
       closed = Closer(Sticks(closed, gaps), Slips(closed, gaps));
     }
@@ -231,6 +234,7 @@ class ContactErrors {
   Scalar Limited() const { return fN_ < 0 ? Scalar(-Limit(mu_, Scalar(-fN_))) : Limit(mu_, fN_); }
 
   ContactKind kind_;
+  int tangents_ = 0;
   Scalar mu_, fN_, aN_, limit_, friction_unit_;
   std::array<Scalar, 2> fF_ = {Scalar(0), Scalar(0)}, aF_ = fF_, slip_ = fF_;
   RowUnits normal_, friction_;

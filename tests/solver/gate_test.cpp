@@ -149,6 +149,23 @@ TEST_CASE("gate: forces that only press against each other make no unit larger")
 }
 
 // The judge is written apart from it, condition by condition.
+// Forces of 0.8 N that cancel but for 1e-10 of what they do: the second contact slips, slowly beside them.
+TEST_CASE("gate: in the plane the direction of a slip is a sign, which rounding does not turn") {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}, {ContactKind::kStatic, 1, {}}};
+  problem.A.resize(4, 4);
+  problem.A << 17180655628, -17180000251, -8589737976, -17180393474,  //
+      -17180000251, 17179344917, 8589410317, 17179738118,             //
+      -8589737976, 8589410317, 4294574094, 8589606907,                //
+      -17180393474, 17179738118, 8589606907, 17180131346;
+  problem.b = Eigen::Vector4d(-655374, 655333, 327658, 655357);
+  for (const char* method : {"fast", "complete", "baraff"}) {
+    const Answer<double> answer = Solve(problem, method);
+    CHECK(answer.Solved());
+    CHECK(answer.errors->Largest() < 1e-11);
+  }
+}
+
 TEST_CASE("gate: what it lets pass misses no condition, over rationals") {
   int passed = 0, refused = 0;
   for (const GeneratorId id : {GeneratorId::kPsd, GeneratorId::kNearDegenerate, GeneratorId::kBodies,
