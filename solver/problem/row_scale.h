@@ -9,7 +9,6 @@
 #define STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -36,7 +35,8 @@ template <class Scalar>
 Scalar TimesPowerOfTwo(const Scalar& x, int e) {
   if constexpr (std::is_same_v<Scalar, double>) {
     constexpr int kBias = 1023;
-    if (e > -kBias && e <= kBias) return x * std::bit_cast<double>(static_cast<std::uint64_t>(e + kBias) << 52);
+    if (e > -kBias && e <= kBias)
+      return x * Eigen::numext::bit_cast<double>(static_cast<std::uint64_t>(e + kBias) << 52);
   }
   using std::ldexp;
   return ldexp(x, e);

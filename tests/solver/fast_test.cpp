@@ -203,7 +203,7 @@ TEST_CASE(
     CHECK(warm.statistics == FastStatistics{.factorizations = factored});
     CHECK(factored <= 2);
     twice += factored == 2;
-    CHECK(solver.f().isApprox(f, 1e-6));
+    if (problem.A.fullPivLu().isInvertible()) CHECK(solver.f().isApprox(f, 1e-6));
   }
   CHECK(exchanged > 20);
   CHECK(twice < 20);
