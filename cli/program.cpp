@@ -19,10 +19,10 @@
 
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "corpus/keep_memory.h"
 #include "corpus/output_error.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
-#include "solver/keep_memory.h"
 
 namespace stiction {
 namespace {

@@ -22,7 +22,7 @@
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
-#include "solver/keep_memory.h"
+#include "corpus/keep_memory.h"
 
 namespace stiction {
 namespace {

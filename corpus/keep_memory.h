@@ -5,8 +5,8 @@
 // next allocation then costs more than a small problem's solution. It concerns the whole process, so no
 // function of the library calls it.
 
-#ifndef STICTION_SOLVER_KEEP_MEMORY_H_
-#define STICTION_SOLVER_KEEP_MEMORY_H_
+#ifndef STICTION_CORPUS_KEEP_MEMORY_H_
+#define STICTION_CORPUS_KEEP_MEMORY_H_
 
 #include <cstdlib>
 #ifdef __GLIBC__
@@ -25,4 +25,4 @@ inline void KeepFreedMemory() {
 
 }  // namespace stiction
 
-#endif  // STICTION_SOLVER_KEEP_MEMORY_H_
+#endif  // STICTION_CORPUS_KEEP_MEMORY_H_
