@@ -85,15 +85,16 @@ BenchTable MeasureRates(const BenchOptions& o) {
 }
 
 BenchTable MeasureLanes(const BenchOptions& o) {
-  BenchTable table{"lanes", "The same at two contacts, by instruction set; none: one problem after the other",
-                   Json::array()};
+  BenchTable table{"lanes", "The same by instruction set; none: one problem after the other", Json::array()};
   for (const GeneratorRow& row : Generators()) {
     if (!row.IsPlain() || static_cast<int>(row.id) >= kOrdinaryGeneratorCount) continue;
     if (o.generator && row.id != *o.generator) continue;
-    Json line = {{"generator", row.name}};
-    for (const InstructionSet set : InstructionSets())
-      line[std::string(Name(set))] = ToJson(SearchRate(row.id, 2, set, o));
-    table.rows.push_back(std::move(line));
+    for (const int contacts : {2, 3, 4}) {
+      Json line = {{"generator", row.name}, {"contacts", contacts}};
+      for (const InstructionSet set : InstructionSets())
+        line[std::string(Name(set))] = ToJson(SearchRate(row.id, contacts, set, o));
+      table.rows.push_back(std::move(line));
+    }
   }
   return table;
 }
@@ -226,10 +227,12 @@ BenchTable MeasureStore(const BenchOptions& o) {
 
 // ---- Roofline --------------------------------------------------------------------------------
 
+constexpr int kRows = 4;
+
 // The operations of one problem of `integers` at two contacts: drawing it, the run, the errors of its forces.
 OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, double& steps) {
-  ContactProblem<Counted, kBatchRows> problem;
-  PublishedAlgorithm<Counted, kBatchRows> algorithm;
+  ContactProblem<Counted, kRows> problem;
+  PublishedAlgorithm<Counted, kRows> algorithm;
   Counted::counts() = {};
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(ProblemSeed(o.seed, 1, static_cast<std::uint64_t>(index)));
@@ -238,8 +241,8 @@ OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, do
     steps += static_cast<double>(algorithm.Run(problem).statistics.steps);
     const auto& f = algorithm.state().f;
     auto a = problem.b;
-    for (int i = 0; i < kBatchRows; ++i) {
-      for (int j = 0; j < kBatchRows; ++j) a[i] += problem.A(i, j) * f[j];
+    for (int i = 0; i < kRows; ++i) {
+      for (int j = 0; j < kRows; ++j) a[i] += problem.A(i, j) * f[j];
     }
     MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
   }
@@ -252,7 +255,7 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
   const OperationCounts counts = CountOperations(o, kCounted, steps);
   const auto each = [](std::int64_t count) { return static_cast<double>(count) / kCounted; };
   // A block is written and read once.
-  constexpr double kBytes = 2.0 * sizeof(Block) / kBlockProblems;
+  constexpr double kBytes = 2.0 * sizeof(Block<kRows>) / kBlockProblems;
   const Peak peak = MeasurePeak(BestInstructionSet());
   const double measured = SearchRate(GeneratorId::kIntegers, 2, BestInstructionSet(), o).median;
   BenchTable table{"roofline",
@@ -278,7 +281,7 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
 
 int BenchSearch(const BenchOptions& o) {
   progress::Expect((o.generator ? 1 : Generators().size()) * (o.contacts.empty() ? 3 : o.contacts.size()) +
-                   (o.generator ? 1 : kOrdinaryGeneratorCount) * InstructionSets().size() +
+                   (o.generator ? 1 : kOrdinaryGeneratorCount) * 3 * InstructionSets().size() +
                    (o.generator ? 0 : 5));
   std::vector<BenchTable> tables = {MeasureRates(o)};
   progress::Clear();

@@ -79,18 +79,19 @@ class OneByOne : public Solver {
   PublishedAlgorithm<double, Rows> algorithm_;
 };
 
+template <int Rows>
 class InLanes : public Solver {
  public:
   explicit InLanes(const std::vector<PeerProblem>& problems) : alone_(problems), size_(problems.size()) {
     for (std::size_t i = 0; i < size_; ++i) {
       if (i % kBlockProblems == 0)
-        batches_.push_back(std::make_unique<Batch>(BestInstructionSet(), PublishedOptions{}));
+        batches_.push_back(std::make_unique<Batch<Rows>>(BestInstructionSet(), PublishedOptions{}));
       batches_.back()->Put(static_cast<int>(i % kBlockProblems), alone_.problem(i), {});
     }
   }
   void SolveAll() override {
     for (std::size_t first = 0; first < size_; first += kBlockProblems) {
-      Batch& batch = *batches_[first / kBlockProblems];
+      Batch<Rows>& batch = *batches_[first / kBlockProblems];
       const int count = static_cast<int>(std::min<std::size_t>(kBlockProblems, size_ - first));
       batch.Run(count);
       for (int i = 0; i < count; ++i) {
@@ -100,18 +101,24 @@ class InLanes : public Solver {
   }
 
  private:
-  OneByOne<kBatchRows> alone_;
+  OneByOne<Rows> alone_;
   std::size_t size_;
-  std::vector<std::unique_ptr<Batch>> batches_;
+  std::vector<std::unique_ptr<Batch<Rows>>> batches_;
 };
 
+template <int Rows>
+std::unique_ptr<Solver> MakeFixed(const std::vector<PeerProblem>& problems) {
+  if constexpr (HasLanes(Rows)) {
+    if (BestInstructionSet() != InstructionSet::kNone) return std::make_unique<InLanes<Rows>>(problems);
+  }
+  return std::make_unique<OneByOne<Rows>>(problems);
+}
+
 std::unique_ptr<Solver> MakeSolver(int contacts, const std::vector<PeerProblem>& problems) {
-  const bool lanes = BestInstructionSet() != InstructionSet::kNone;
-  if (contacts == 2 && lanes) return std::make_unique<InLanes>(problems);
-  if (contacts == 2) return std::make_unique<OneByOne<4>>(problems);
-  if (contacts == 3) return std::make_unique<OneByOne<6>>(problems);
-  if (contacts == 4) return std::make_unique<OneByOne<8>>(problems);
-  if (contacts == 5) return std::make_unique<OneByOne<10>>(problems);
+  if (contacts == 2) return MakeFixed<4>(problems);
+  if (contacts == 3) return MakeFixed<6>(problems);
+  if (contacts == 4) return MakeFixed<8>(problems);
+  if (contacts == 5) return MakeFixed<10>(problems);
   throw InputError(fmt::format("--contacts: found {}, expected 2 to 5 for the table lemke", contacts));
 }
 

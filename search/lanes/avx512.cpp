@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lanes of AVX-512 (DQ, VL).
 
-#include "search/lanes/block.h"
-#include "search/lanes/draw_lanes.ipp"
-#include "search/lanes/run_lanes.ipp"
+#include "search/lanes/lane_codes.ipp"
 
 namespace stiction {
 
-const LaneCode kAvx512Lanes = {
-    [](Block& block, int count, const LaneTolerances& tolerances) { LaneRuns(block, count, tolerances).Run(); },
-    [](Block& block, const LaneDraw& draw) { LaneDraws(block, draw).Draw(); },
-};
+const LaneCodes kAvx512Lanes = kLaneCodes;
 
 }  // namespace stiction

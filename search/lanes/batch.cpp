@@ -14,7 +14,7 @@ namespace {
 // A batched run is far from both: otherwise what a limit stops would have to be told in lanes.
 constexpr std::int64_t kLeastLimit = 1000;
 
-const LaneCode* CodeOf(InstructionSet set) {
+const LaneCodes* CodesOf(InstructionSet set) {
   switch (set) {
     case InstructionSet::kNone:
       break;
@@ -30,6 +30,18 @@ const LaneCode* CodeOf(InstructionSet set) {
   }
   STICTION_CHECK(false, "a batch has an instruction set");
   return nullptr;
+}
+
+template <int Rows>
+LaneCode<Rows> CodeOf(InstructionSet set) {
+  const LaneCodes& codes = *CodesOf(set);
+  if constexpr (Rows == 4) {
+    return codes.two_contacts;
+  } else if constexpr (Rows == 6) {
+    return codes.three_contacts;
+  } else {
+    return codes.four_contacts;
+  }
 }
 
 std::optional<LaneFamily> FamilyOf(GeneratorId id) {
@@ -72,50 +84,58 @@ bool IsBatched(const PublishedOptions& options) {
 
 bool IsDrawnInLanes(GeneratorId id) { return FamilyOf(id).has_value(); }
 
-Batch::Batch(InstructionSet set, const PublishedOptions& options)
-    : code_(CodeOf(set)),
+template <int Rows>
+Batch<Rows>::Batch(InstructionSet set, const PublishedOptions& options)
+    : code_(CodeOf<Rows>(set)),
       tolerances_{Tolerance(options.tolerances.acceleration), Tolerance(options.tolerances.force),
                   Tolerance(options.tolerances.pivot)},
       block_{} {
   STICTION_CHECK(IsBatched(options), "options that can be batched");
 }
 
-void Batch::Put(int i, const Problem& problem, const Drawn& drawn) {
+template <int Rows>
+void Batch<Rows>::Put(int i, const Problem& problem, const Drawn& drawn) {
   block_.friction[i] = drawn.friction;
   block_.columns[i] = drawn.rank;
-  for (int row = 0; row < 4; ++row) {
+  for (int row = 0; row < Rows; ++row) {
     block_.b[row][i] = problem.b[row];
-    for (int j = 0; j < 4; ++j) block_.A[row][j][i] = problem.A(row, j);
+    for (int j = 0; j < Rows; ++j) block_.A[row][j][i] = problem.A(row, j);
   }
-  for (int contact = 0; contact < 2; ++contact) block_.mu[contact][i] = problem.contacts[contact].mu;
+  for (int contact = 0; contact < Rows / 2; ++contact) block_.mu[contact][i] = problem.contacts[contact].mu;
 }
 
-void Batch::Get(int i, Problem& problem) const {
+template <int Rows>
+void Batch<Rows>::Get(int i, Problem& problem) const {
   problem.dimension = 2;
-  for (int row = 0; row < 4; ++row) {
+  for (int row = 0; row < Rows; ++row) {
     problem.b[row] = block_.b[row][i];
-    for (int j = 0; j < 4; ++j) problem.A(row, j) = block_.A[row][j][i];
+    for (int j = 0; j < Rows; ++j) problem.A(row, j) = block_.A[row][j][i];
   }
-  for (int contact = 0; contact < 2; ++contact) {
+  for (int contact = 0; contact < Rows / 2; ++contact) {
     problem.contacts[contact] = {};
     problem.contacts[contact].mu = block_.mu[contact][i];
   }
 }
 
-void Batch::Draw(GeneratorId id, std::span<const MuChoice> palette, std::uint64_t seed, std::uint64_t unit,
-                 std::int64_t first, int count) {
+template <int Rows>
+void Batch<Rows>::Draw(GeneratorId id, std::span<const MuChoice> palette, std::uint64_t seed,
+                       std::uint64_t unit, std::int64_t first, int count) {
   const auto family = FamilyOf(id);
   STICTION_CHECK(family.has_value(), "a generator that lanes can draw");
   if (mu_.empty()) {
     for (const MuChoice& mu : palette)
       mu_.push_back(static_cast<double>(mu.numerator) / static_cast<double>(mu.denominator));
   }
-  code_->draw(block_, {*family, UnitSeed(seed, unit), kSeedStep, first, count, mu_.data(), mu_.size()});
+  code_.draw(block_, {*family, UnitSeed(seed, unit), kSeedStep, first, count, mu_.data(), mu_.size()});
 }
 
-void Batch::Run(int count) { code_->run(block_, count, tolerances_); }
+template <int Rows>
+void Batch<Rows>::Run(int count) {
+  code_.run(block_, count, tolerances_);
+}
 
-Verdict Batch::VerdictOf(int i) const {
+template <int Rows>
+Verdict Batch<Rows>::VerdictOf(int i) const {
   const LaneEnd& end = block_.ends[i];
   Verdict verdict;
   verdict.outcome = Outcome::kSolved;
@@ -128,5 +148,9 @@ Verdict Batch::VerdictOf(int i) const {
   s.outer_scans = end.drives + 1;
   return verdict;
 }
+
+template class Batch<4>;
+template class Batch<6>;
+template class Batch<8>;
 
 }  // namespace stiction

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many problems of two contacts at once: one to a lane of the processor's vectors.
+// Many problems of two, three or four contacts at once: one to a lane of the processor's vectors.
 //
-// A lane does what PublishedAlgorithm<double, 4> does under the policy `paper`, operation by operation in the
-// same order, without contractions: what it ends with is equal to the bit. It does so only on the common path,
-// on which every drive puts its variable into a set, nothing is given up, and the end is a solution. A problem
-// that leaves this path is *left*: the caller runs it by the algorithm itself.
+// A lane does what PublishedAlgorithm<double, Rows> does under the policy `paper`, operation by operation in
+// the same order, without contractions: what it ends with is equal to the bit. It does so only on the common
+// path, on which every drive puts its variable into a set, nothing is given up, and the end is a solution. A
+// problem that leaves this path is *left*: the caller runs it by the algorithm itself.
 //
-// Shapes      two static contacts of the plane, rows 0 to 3: fN1, fF1, fN2, fF2.
+// Shapes      static contacts of the plane, Rows = 4, 6 or 8: fN1, fF1, fN2, fF2, ...
 // Exactness   lanes do not touch each other: results do not depend on the instruction set, nor on what is
 // beside.
 
@@ -26,14 +26,15 @@ namespace stiction {
 
 // Whether runs under these options can be batched at all.
 bool IsBatched(const PublishedOptions& options);
+// Whether there are lanes for so many rows.
+constexpr bool HasLanes(int rows) { return rows == 4 || rows == 6 || rows == 8; }
 // Whether lanes can draw problems of a generator themselves.
 bool IsDrawnInLanes(GeneratorId id);
 
-inline constexpr int kBatchRows = 4;
-
+template <int Rows>
 class Batch {
  public:
-  using Problem = ContactProblem<double, kBatchRows>;
+  using Problem = ContactProblem<double, Rows>;
 
   // Requires one of InstructionSets() other than kNone, and IsBatched(options).
   Batch(InstructionSet set, const PublishedOptions& options);
@@ -52,15 +53,15 @@ class Batch {
   // What the algorithm says of problem i. Requires !IsLeft(i).
   Verdict VerdictOf(int i) const;
   bool IsLeft(int i) const { return block_.ends[i].is_left; }
-  std::span<const double, kBatchRows> Forces(int i) const { return block_.f[i]; }
+  std::span<const double, Rows> Forces(int i) const { return block_.f[i]; }
   // The largest of MeasureErrors (solver/problem/errors.h), with accelerations computed anew.
   double Error(int i) const { return block_.error[i]; }
 
  private:
-  const LaneCode* code_;
+  LaneCode<Rows> code_;
   LaneTolerances tolerances_;
   std::vector<double> mu_;
-  Block block_;
+  Block<Rows> block_;
 };
 
 }  // namespace stiction

@@ -20,17 +20,18 @@ struct LaneEnd {
   std::uint8_t drives, steps, zero_steps, longest_zero_run, singular_directions;
 };
 
-// Problems, one to a column, and how they end.
+// Problems of Rows / 2 contacts, one to a column, and how they end.
+template <int Rows>
 struct Block {
-  alignas(64) double A[4][4][kBlockRoom];
-  alignas(64) double b[4][kBlockRoom];
-  alignas(64) double mu[2][kBlockRoom];
-  // Of problems that were drawn in lanes: the number in the palette of the friction that both contacts have, or
+  alignas(64) double A[Rows][Rows][kBlockRoom];
+  alignas(64) double b[Rows][kBlockRoom];
+  alignas(64) double mu[Rows / 2][kBlockRoom];
+  // Of problems that were drawn in lanes: the number in the palette of the friction that all contacts have, or
   // -1, and the columns of J.
   std::int32_t friction[kBlockRoom];
   std::int32_t columns[kBlockRoom];
   LaneEnd ends[kBlockProblems];
-  double f[kBlockProblems][4];
+  double f[kBlockProblems][Rows];
   double error[kBlockProblems];  // the largest, with accelerations computed anew
 };
 
@@ -52,13 +53,19 @@ struct LaneDraw {
   std::uint64_t palette;
 };
 
-// Functions of one instruction set.
+// Functions of one instruction set for so many rows.
+template <int Rows>
 struct LaneCode {
-  void (*run)(Block& block, int count, const LaneTolerances& tolerances);
-  void (*draw)(Block& block, const LaneDraw& draw);
+  void (*run)(Block<Rows>& block, int count, const LaneTolerances& tolerances);
+  void (*draw)(Block<Rows>& block, const LaneDraw& draw);
+};
+struct LaneCodes {
+  LaneCode<4> two_contacts;
+  LaneCode<6> three_contacts;
+  LaneCode<8> four_contacts;
 };
 
-extern const LaneCode kAvx2Lanes, kAvx512Lanes;
+extern const LaneCodes kAvx2Lanes, kAvx512Lanes;
 
 }  // namespace stiction
 

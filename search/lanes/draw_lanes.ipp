@@ -57,35 +57,36 @@ class LaneChoices {
   Word state_;
 };
 
+template <int Rows>
 class LaneDraws {
  public:
-  LaneDraws(Block& block, const LaneDraw& draw) : block_(block), draw_(draw) {}
+  LaneDraws(Block<Rows>& block, const LaneDraw& draw) : block_(block), draw_(draw) {}
 
   void Draw() {
     for (int i = 0; i < draw_.count; i += kLanes) {
       LaneChoices choices(Seeds(i));
       DrawFriction(choices, i);
-      const Real columns = RealOf(choices.Below(4)) + 1.0;
+      const Real columns = RealOf(choices.Below(Rows)) + 1.0;
       for (int lane = 0; lane < kLanes; ++lane)
         block_.columns[i + lane] = static_cast<std::int32_t>(columns[lane]);
-      Real J[16] = {}, x[4] = {};  // J column by column
+      Real J[Rows * Rows] = {}, x[Rows] = {};  // J column by column
       Mask of_J = ~Never();
       switch (draw_.family) {
         case LaneFamily::kIntegers:
-          choices.ForEach<-5, 11, 9>(columns * 4.0, J);
+          choices.ForEach<-5, 11, 9>(columns * static_cast<double>(Rows), J);
           of_J = choices.Below(2) == 0;
-          choices.ForEach<-5, 11, 9>(All(4), x);
+          choices.ForEach<-5, 11, 9>(All(Rows), x);
           break;
         case LaneFamily::kPsd:
-          choices.ForEach<-32768, 65536, 4>(columns * 4.0, J);
-          choices.ForEach<-2048, 4096, 5>(All(4), x);
+          choices.ForEach<-32768, 65536, 4>(columns * static_cast<double>(Rows), J);
+          choices.ForEach<-2048, 4096, 5>(All(Rows), x);
           for (Real& entry : J) entry *= 0x1p-15;
           for (Real& entry : x) entry *= 0x1p-11;
           of_J = Never();
           break;
         case LaneFamily::kSmall:
-          choices.ForEach<-4, 9, 10>(columns * 4.0, J);
-          choices.ForEach<-2, 5, 13>(All(4), x);
+          choices.ForEach<-4, 9, 10>(columns * static_cast<double>(Rows), J);
+          choices.ForEach<-2, 5, 13>(All(Rows), x);
           for (Real& entry : J) entry -= Max(All(-2), Min(entry, All(2)));
           break;
       }
@@ -105,46 +106,51 @@ class LaneDraws {
   void DrawFriction(LaneChoices& choices, int i) {
     const Mask single = choices.Below(2) == 0;
     const Word first = choices.Below(draw_.palette);
-    const Word second = (Word)HighWord(choices.Next(~single), draw_.palette);
     for (int lane = 0; lane < kLanes; ++lane) {
       block_.mu[0][i + lane] = draw_.mu[first[lane]];
-      block_.mu[1][i + lane] = draw_.mu[single[lane] != 0 ? first[lane] : second[lane]];
-      const bool same = block_.mu[0][i + lane] == block_.mu[1][i + lane];
-      block_.friction[i + lane] = same ? static_cast<std::int32_t>(first[lane]) : -1;
+      block_.friction[i + lane] = static_cast<std::int32_t>(first[lane]);
+    }
+    for (int contact = 1; contact < Rows / 2; ++contact) {
+      const Word next = HighWord(choices.Next(~single), draw_.palette);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double mu = draw_.mu[single[lane] != 0 ? first[lane] : next[lane]];
+        block_.mu[contact][i + lane] = mu;
+        if (mu != block_.mu[0][i + lane]) block_.friction[i + lane] = -1;
+      }
     }
   }
 
   // A = J J'.
-  void SetGram(const Real (&J)[16], Real columns, int i) {
-    for (int row = 0; row < 4; ++row) {
+  void SetGram(const Real (&J)[Rows * Rows], Real columns, int i) {
+    for (int row = 0; row < Rows; ++row) {
       for (int j = 0; j <= row; ++j) {
         Real sum = J[row] * J[j];
-        for (int k = 1; k < 4; ++k)
-          sum = Select(columns > static_cast<double>(k), sum + J[4 * k + row] * J[4 * k + j], sum);
+        for (int k = 1; k < Rows; ++k)
+          sum = Select(columns > static_cast<double>(k), sum + J[Rows * k + row] * J[Rows * k + j], sum);
         A_[row][j] = A_[j][row] = sum;
       }
     }
-    for (int row = 0; row < 4; ++row) {
-      for (int j = 0; j < 4; ++j) Store(A_[row][j], block_.A[row][j] + i);
+    for (int row = 0; row < Rows; ++row) {
+      for (int j = 0; j < Rows; ++j) Store(A_[row][j], block_.A[row][j] + i);
     }
   }
 
   // b = J x, or A x. A sum that begins at +0 stays as it is when a zero is added.
-  void SetImage(const Real (&J)[16], Real columns, Mask of_J, const Real (&x)[4], int i) {
-    for (int row = 0; row < 4; ++row) {
+  void SetImage(const Real (&J)[Rows * Rows], Real columns, Mask of_J, const Real (&x)[Rows], int i) {
+    for (int row = 0; row < Rows; ++row) {
       Real sum = All(0);
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < Rows; ++k) {
         const Mask used = ~of_J | (columns > static_cast<double>(k));
-        const Real factor = Select(of_J, J[4 * k + row], A_[row][k]);
+        const Real factor = Select(of_J, J[Rows * k + row], A_[row][k]);
         sum = Select(used, sum + factor * x[k], sum);
       }
       Store(sum, block_.b[row] + i);
     }
   }
 
-  Block& block_;
+  Block<Rows>& block_;
   const LaneDraw draw_;
-  Real A_[4][4];
+  Real A_[Rows][Rows];
 };
 
 }  // namespace

@@ -24,9 +24,10 @@ constexpr double kNone = Code(IndexSet::kNone), kClamped = Code(IndexSet::kClamp
                  kSeparating = Code(IndexSet::kSeparating), kSticking = Code(IndexSet::kSticking),
                  kAtLower = Code(IndexSet::kAtLower), kAtUpper = Code(IndexSet::kAtUpper);
 
+template <int Rows>
 class LaneRuns {
  public:
-  LaneRuns(Block& block, int count, const LaneTolerances& tolerances)
+  LaneRuns(Block<Rows>& block, int count, const LaneTolerances& tolerances)
       : block_(block), count_(count), tolerances_(tolerances) {
     for (int& number : number_) number = -1;
   }
@@ -46,6 +47,7 @@ class LaneRuns {
   }
 
  private:
+  static constexpr int kContacts = Rows / 2;
   static constexpr int kRefillFrom = kLanes / 4;  // lanes without a problem
 
   // ---- Lanes take problems and give them back ----
@@ -59,7 +61,7 @@ class LaneRuns {
       const auto count = [lane](const Real& x) { return static_cast<std::uint8_t>(x[lane]); };
       block_.ends[i] = {is_left_[lane] != 0, count(drives_),           count(steps_),
                         count(zero_steps_),  count(longest_zero_run_), count(singular_directions_)};
-      for (int row = 0; row < 4; ++row) block_.f[i][row] = f_[row][lane];
+      for (int row = 0; row < Rows; ++row) block_.f[i][row] = f_[row][lane];
       block_.error[i] = error_[lane];
     }
   }
@@ -78,11 +80,11 @@ class LaneRuns {
     const auto load = [&](Real& x, const double* numbers) {
       x = Select(fresh, Spread(Load(numbers + first), from), x);
     };
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) load(A_[i][j], block_.A[i][j]);
+    for (int i = 0; i < Rows; ++i) {
+      for (int j = 0; j < Rows; ++j) load(A_[i][j], block_.A[i][j]);
       load(b_[i], block_.b[i]);
     }
-    for (int contact = 0; contact < 2; ++contact) load(mu_[contact], block_.mu[contact]);
+    for (int contact = 0; contact < kContacts; ++contact) load(mu_[contact], block_.mu[contact]);
     Start(fresh);
   }
 
@@ -101,7 +103,7 @@ class LaneRuns {
     Real b = Abs(b_[0]), A = Abs(A_[0][0]);
     b = Max(All(0), b);
     A = Max(All(0), A);
-    for (int row = 1; row < 4; ++row) {
+    for (int row = 1; row < Rows; ++row) {
       b = Max(b, Abs(b_[row]));
       A = Max(A, Abs(A_[row][row]));
     }
@@ -109,7 +111,7 @@ class LaneRuns {
     acceleration_tolerance_ = tolerances_.acceleration * b;
     force_tolerance_ = tolerances_.force * force;
     rate_tolerance_ = tolerances_.pivot * A;
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       f_[row] = Select(fresh, All(0), f_[row]);
       a_[row] = Select(fresh, b_[row], a_[row]);
       set_[row] = Select(fresh, All(kNone), set_[row]);
@@ -123,10 +125,11 @@ class LaneRuns {
 
   // x - x is zero for finite x only.
   Mask IsFinite() const {
-    Real zero = (mu_[0] - mu_[0]) + (mu_[1] - mu_[1]), sum = All(0);
-    for (int i = 0; i < 4; ++i) {
+    Real zero = All(0), sum = All(0);
+    for (const Real& mu : mu_) zero += mu - mu;
+    for (int i = 0; i < Rows; ++i) {
       sum += Abs(b_[i]);
-      for (int j = 0; j < 4; ++j) zero += A_[i][j] - A_[i][j];
+      for (int j = 0; j < Rows; ++j) zero += A_[i][j] - A_[i][j];
     }
     return (zero == 0) & (sum <= __DBL_MAX__);
   }
@@ -142,7 +145,7 @@ class LaneRuns {
   void Scan() {
     if (!Any(scanning_)) return;
     Real picked = All(-1);
-    for (int contact = 1; contact >= 0; --contact) {
+    for (int contact = kContacts - 1; contact >= 0; --contact) {
       const int normal = 2 * contact, friction = normal + 1;
       const Mask holds = NormalHolds(normal);
       picked = Select(holds & ~FrictionHolds(contact), All(friction), picked);
@@ -170,16 +173,17 @@ class LaneRuns {
 
   void Begin(Mask begins, Real row) {
     driven_ = Select(begins, row, driven_);
-    for (int friction = 1; friction < 4; friction += 2) {
+    for (int friction = 1; friction < Rows; friction += 2) {
       const Mask here = begins & (driven_ == friction);
       const Real sign = Select(a_[friction] > 0, All(-1), All(1));
       sign_ = Select(here, sign, sign_);
       const Mask rests = ~(f_[friction] > force_tolerance_) & ~(f_[friction] < -force_tolerance_);
       Leave(here & ~(rests & ((a_[friction] > 0) | (a_[friction] < 0))));
     }
-    sign_ = Select(begins & ((driven_ == 0) | (driven_ == 2)), All(1), sign_);
+    for (int normal = 0; normal < Rows; normal += 2)
+      sign_ = Select(begins & (driven_ == normal), All(1), sign_);
     driving_ |= begins;
-    for (int r = 0; r < 4; ++r) {
+    for (int r = 0; r < Rows; ++r) {
       last_left_[r] = Select(begins, All(kNone), last_left_[r]);
       Leave(begins & (driven_ == r) & (set_[r] != kNone));
     }
@@ -199,26 +203,26 @@ class LaneRuns {
 
   // Columns of A, a normal's with its friction along while that is at a limit.
   void FindDirection() {
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       is_driven_[row] = driven_ == row;
       unknown_[row] = set_[row] == (row % 2 == 0 ? kClamped : kSticking);
     }
-    Real M[4][4];
-    for (int contact = 0; contact < 2; ++contact) {
+    Real M[Rows][Rows];
+    for (int contact = 0; contact < kContacts; ++contact) {
       const int normal = 2 * contact;
       at_upper_[contact] = set_[normal + 1] == kAtUpper;
       at_lower_[contact] = set_[normal + 1] == kAtLower;
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < Rows; ++i) {
         const Real along = mu_[contact] * A_[i][normal + 1];
         M[i][normal] = Select(at_upper_[contact], A_[i][normal] + along,
                               Select(at_lower_[contact], A_[i][normal] - along, A_[i][normal]));
         M[i][normal + 1] = A_[i][normal + 1];
       }
     }
-    Real right[4];
-    for (int i = 0; i < 4; ++i) {
-      Real entry = M[i][3];
-      for (int j = 0; j < 3; ++j) entry = Select(is_driven_[j], M[i][j], entry);
+    Real right[Rows];
+    for (int i = 0; i < Rows; ++i) {
+      Real entry = M[i][Rows - 1];
+      for (int j = 0; j < Rows - 1; ++j) entry = Select(is_driven_[j], M[i][j], entry);
       right[i] = Select(sign_ > 0, -entry, entry);
     }
     Solve(M, right);
@@ -226,23 +230,23 @@ class LaneRuns {
   }
 
   // Gauss with the largest entry of each column, of equal ones that in the first place.
-  void Solve(Real (&M)[4][4], Real (&right)[4]) {
-    Mask waiting[4];  // rows of unknowns that are no pivot's
-    Real place[4];
+  void Solve(Real (&M)[Rows][Rows], Real (&right)[Rows]) {
+    Mask waiting[Rows];  // rows of unknowns that are no pivot's
+    Real place[Rows];
     Real rank = All(0), before = All(0);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < Rows; ++i) {
       waiting[i] = unknown_[i];
       place[i] = before;
       before += Select(unknown_[i], All(1), All(0));
     }
-    Mask has_pivot[4];
-    Real pivot_row[4][4], pivot_right[4];
-    for (int column = 0; column < 4; ++column) {
+    Mask has_pivot[Rows];
+    Real pivot_row[Rows][Rows], pivot_right[Rows];
+    for (int column = 0; column < Rows; ++column) {
       has_pivot[column] = Never();
       if (!Any(unknown_[column])) continue;
-      Mask is_pivot[4];
+      Mask is_pivot[Rows];
       Real size = All(0), at = All(0);
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < Rows; ++i) {
         const Real entry = Abs(M[i][column]);
         const Mask may = waiting[i] & unknown_[column] & (entry > rate_tolerance_);
         const Mask better = may & (~has_pivot[column] | (entry > size) | ((entry == size) & (place[i] < at)));
@@ -252,26 +256,28 @@ class LaneRuns {
         at = Select(better, place[i], at);
         has_pivot[column] |= better;
       }
-      for (int j = column; j < 4; ++j) {
-        pivot_row[column][j] = M[3][j];
-        for (int i = 0; i < 3; ++i) pivot_row[column][j] = Select(is_pivot[i], M[i][j], pivot_row[column][j]);
+      for (int j = column; j < Rows; ++j) {
+        pivot_row[column][j] = M[Rows - 1][j];
+        for (int i = 0; i < Rows - 1; ++i)
+          pivot_row[column][j] = Select(is_pivot[i], M[i][j], pivot_row[column][j]);
       }
-      pivot_right[column] = right[3];
-      for (int i = 0; i < 3; ++i) pivot_right[column] = Select(is_pivot[i], right[i], pivot_right[column]);
-      for (int i = 0; i < 4; ++i) {
+      pivot_right[column] = right[Rows - 1];
+      for (int i = 0; i < Rows - 1; ++i)
+        pivot_right[column] = Select(is_pivot[i], right[i], pivot_right[column]);
+      for (int i = 0; i < Rows; ++i) {
         waiting[i] &= ~is_pivot[i];
         place[i] = Select(has_pivot[column] & (place[i] == rank), at, place[i]);
         const Real below = M[i][column];
         const Mask clear = waiting[i] & has_pivot[column] & ((below > 0) | (below < 0));
         const Real factor = below / pivot_row[column][column];
-        for (int j = column + 1; j < 4; ++j)
+        for (int j = column + 1; j < Rows; ++j)
           M[i][j] = Select(clear, M[i][j] - factor * pivot_row[column][j], M[i][j]);
         right[i] = Select(clear, right[i] - factor * pivot_right[column], right[i]);
       }
       rank += Select(has_pivot[column], All(1), All(0));
     }
     Mask singular = Never(), inconsistent = Never();
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < Rows; ++i) {
       singular |= waiting[i];
       inconsistent |= waiting[i] & (Abs(right[i]) > rate_tolerance_);
     }
@@ -280,19 +286,20 @@ class LaneRuns {
     BackSubstitute(has_pivot, pivot_row, pivot_right);
   }
 
-  void BackSubstitute(const Mask (&has_pivot)[4], const Real (&pivot_row)[4][4], const Real (&pivot_right)[4]) {
-    for (int column = 3; column >= 0; --column) {
+  void BackSubstitute(const Mask (&has_pivot)[Rows], const Real (&pivot_row)[Rows][Rows],
+                      const Real (&pivot_right)[Rows]) {
+    for (int column = Rows - 1; column >= 0; --column) {
       df_[column] = All(0);
       if (!Any(has_pivot[column])) continue;
       Real x = pivot_right[column];
-      for (int k = column + 1; k < 4; ++k) x = Select(has_pivot[k], x - pivot_row[column][k] * df_[k], x);
+      for (int k = column + 1; k < Rows; ++k) x = Select(has_pivot[k], x - pivot_row[column][k] * df_[k], x);
       df_[column] = Select(has_pivot[column], x / pivot_row[column][column], All(0));
     }
   }
 
   void SpreadDirection() {
-    for (int row = 0; row < 4; ++row) df_[row] = Select(is_driven_[row], sign_, df_[row]);
-    for (int contact = 0; contact < 2; ++contact) {
+    for (int row = 0; row < Rows; ++row) df_[row] = Select(is_driven_[row], sign_, df_[row]);
+    for (int contact = 0; contact < kContacts; ++contact) {
       const int normal = 2 * contact;
       const Mask moves = unknown_[normal] | is_driven_[normal];
       const Real bound = mu_[contact] * df_[normal];
@@ -300,9 +307,9 @@ class LaneRuns {
       friction = Select(moves & at_upper_[contact], bound, friction);
       friction = Select(moves & at_lower_[contact], -bound, friction);
     }
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       Real change = All(0);
-      for (int j = 0; j < 4; ++j) change += A_[row][j] * df_[j];
+      for (int j = 0; j < Rows; ++j) change += A_[row][j] * df_[j];
       da_[row] = Select(unknown_[row], All(0), change);
     }
   }
@@ -356,10 +363,12 @@ class LaneRuns {
 
   // The driven variable first, which has no set, then by sets, then by rows.
   void FindStep() {
-    const Limit limits[4] = {LimitNormal(0), LimitFriction(0), LimitNormal(2), LimitFriction(1)};
+    Limit limits[Rows];
     Mask exists = Never();
     Real nearest = All(0);
-    for (const Limit& limit : limits) {
+    for (int row = 0; row < Rows; ++row) {
+      Limit& limit = limits[row];
+      limit = row % 2 == 0 ? LimitNormal(row) : LimitFriction(row / 2);
       const Mask nearer = limit.exists & (~exists | (limit.s < nearest));
       nearest = Select(nearer, limit.s, nearest);
       exists |= nearer;
@@ -367,7 +376,7 @@ class LaneRuns {
     Leave(driving_ & ~exists);  // a ray
     const Real reach = nearest + force_tolerance_;
     Real first = All(10);  // more than any set
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       const Mask before = limits[row].exists & ~(limits[row].s > reach) & (set_[row] < first);
       first = Select(before, set_[row], first);
       for (int k = 0; k < row; ++k) is_limiting_[k] &= ~before;
@@ -380,7 +389,7 @@ class LaneRuns {
   void Advance() {
     Real sum = All(0);
     const Mask rests = (wants_ == kClamped) | (wants_ == kSticking);
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       f_[row] = Select(driving_, f_[row] + s_ * df_[row], f_[row]);
       a_[row] = Select(driving_, a_[row] + s_ * da_[row], a_[row]);
       const Mask meets = driving_ & is_limiting_[row];
@@ -403,7 +412,7 @@ class LaneRuns {
     zero_run_ = Select(zero, zero_run_ + 1, All(0));
     longest_zero_run_ = Select(driving_, Max(longest_zero_run_, zero_run_), longest_zero_run_);
     Mask ends = Never();
-    for (int row = 0; row < 4; ++row) {
+    for (int row = 0; row < Rows; ++row) {
       const Mask moves = driving_ & is_limiting_[row];
       ends |= moves & is_driven_[row];
       Leave(moves & ~is_driven_[row] & (wants_ == last_left_[row]) & zero);  // given up
@@ -418,48 +427,68 @@ class LaneRuns {
   // ---- MeasureErrors of solver/problem/errors.h, of f alone ----
 
   void MeasureError() {
-    Real a[4], sum[4], size[4], unit[4], force_unit[4];
-    for (int i = 0; i < 4; ++i) {
+    Real a[Rows], sum[Rows], size[Rows], unit[Rows], force_unit[Rows];
+    for (int i = 0; i < Rows; ++i) {
       a[i] = b_[i];
-      for (int j = 0; j < 4; ++j) a[i] += A_[i][j] * f_[j];
+      for (int j = 0; j < Rows; ++j) a[i] += A_[i][j] * f_[j];
       sum[i] = size[i] = All(0);
     }
-    for (int j = 0; j < 4; ++j) {
+    for (int j = 0; j < Rows; ++j) {
       const Real own = Abs(A_[j][j]), asked = Select(own > 0, Abs(b_[j]) / own, All(0));
       const Real counts = Max(Abs(f_[j]), asked);
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < Rows; ++i) {
         sum[i] += Abs(A_[i][j]) * counts;
         size[i] += Abs(A_[i][j]) * Abs(f_[j]);
       }
     }
-    Mask coupled = Never();
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 2; j < 4; ++j) coupled |= (A_[i][j] != 0) | (A_[j][i] != 0);
-    }
-    const Real one = LeastWork(a, size, 0, 2), other = LeastWork(a, size, 2, 4),
-               both = LeastWork(a, size, 0, 4);
-    for (int i = 0; i < 4; ++i) {
-      const Real own = Abs(A_[i][i]), work = Select(coupled, both, i < 2 ? one : other);
-      unit[i] = Abs(b_[i]) + Min(sum[i], Root(own * work));
+    Mask coupled[kContacts][kContacts];
+    Couple(coupled);
+    Real least[kContacts];
+    for (int contact = 0; contact < kContacts; ++contact) least[contact] = LeastWork(a, size, coupled[contact]);
+    for (int i = 0; i < Rows; ++i) {
+      const Real own = Abs(A_[i][i]);
+      unit[i] = Abs(b_[i]) + Min(sum[i], Root(own * least[i / 2]));
       force_unit[i] = Select(own > 0, unit[i] / own, All(0));
     }
-    const Real first = ErrorOfContact(0, a, unit, force_unit), second = ErrorOfContact(1, a, unit, force_unit);
-    error_ = Max(Max(All(0), first), second);
+    error_ = All(0);
+    for (int contact = 0; contact < kContacts; ++contact)
+      error_ = Max(error_, ErrorOfContact(contact, a, unit, force_unit));
   }
 
-  Real LeastWork(const Real (&a)[4], const Real (&size)[4], int from, int to) const {
-    const Real rounding = All(4 * 6 * std::numeric_limits<double>::epsilon() / 2);
+  // Which contacts are of one group (units.h).
+  void Couple(Mask (&coupled)[kContacts][kContacts]) const {
+    for (int m = 0; m < kContacts; ++m) {
+      coupled[m][m] = ~Never();
+      for (int n = 0; n < m; ++n) {
+        Mask touch = Never();
+        for (int i = 2 * m; i < 2 * m + 2; ++i) {
+          for (int j = 2 * n; j < 2 * n + 2; ++j) touch |= (A_[i][j] != 0) | (A_[j][i] != 0);
+        }
+        coupled[m][n] = coupled[n][m] = touch;
+      }
+    }
+    for (int through = 0; through < kContacts; ++through) {
+      for (int m = 0; m < kContacts; ++m) {
+        for (int n = 0; n < kContacts; ++n) coupled[m][n] |= coupled[m][through] & coupled[through][n];
+      }
+    }
+  }
+
+  // Of the contacts in `group`. What is added for others is a zero, which leaves a sum as it is.
+  Real LeastWork(const Real (&a)[Rows], const Real (&size)[Rows], const Mask (&group)[kContacts]) const {
+    const Real rounding = All(4 * (Rows + 2) * std::numeric_limits<double>::epsilon() / 2);
     Real done = All(0), free = All(0), error = All(0);
-    for (int i = from; i < to; ++i) {
-      done += f_[i] * (a[i] - b_[i]);
-      free += f_[i] * b_[i];
-      error += rounding * Abs(f_[i]) * (size[i] + Abs(b_[i]));
+    for (int i = 0; i < Rows; ++i) {
+      const Real f = Select(group[i / 2], f_[i], All(0));
+      done += f * (a[i] - b_[i]);
+      free += f * b_[i];
+      error += rounding * Abs(f) * (size[i] + Abs(b_[i]));
     }
     return Max(All(0), Min(Abs(done), Abs(free)) - error);
   }
 
-  Real ErrorOfContact(int contact, const Real (&a)[4], const Real (&unit)[4],
-                      const Real (&force_unit)[4]) const {
+  Real ErrorOfContact(int contact, const Real (&a)[Rows], const Real (&unit)[Rows],
+                      const Real (&force_unit)[Rows]) const {
     const int n = 2 * contact, t = n + 1;
     const Real zero = All(0), speed = Abs(a[t]);
     const Real limit = Select(f_[n] > 0, mu_[contact] * f_[n], zero);
@@ -487,26 +516,26 @@ class LaneRuns {
     return root;
   }
 
-  Block& block_;
+  Block<Rows>& block_;
   const int count_;
   const LaneTolerances tolerances_;
   int next_ = 0;  // the first problem that no lane has had
 
   // Of the problem in a lane.
-  Real A_[4][4] = {}, b_[4] = {}, mu_[2] = {};
+  Real A_[Rows][Rows] = {}, b_[Rows] = {}, mu_[kContacts] = {};
   Real acceleration_tolerance_ = {}, force_tolerance_ = {}, rate_tolerance_ = {};
   int number_[kLanes];  // in the block; -1: none
   Mask scanning_ = {}, driving_ = {}, is_left_ = {};
 
   // Where its run stands.
-  Real f_[4] = {}, a_[4] = {}, set_[4] = {}, last_left_[4] = {};
+  Real f_[Rows] = {}, a_[Rows] = {}, set_[Rows] = {}, last_left_[Rows] = {};
   Real driven_ = {}, sign_ = {};
   Real drives_ = {}, steps_ = {}, zero_steps_ = {}, zero_run_ = {}, longest_zero_run_ = {},
        singular_directions_ = {};
 
   // Of one step.
-  Mask is_driven_[4], unknown_[4], at_upper_[2], at_lower_[2], is_limiting_[4];
-  Real df_[4], da_[4], s_ = {}, wants_ = {};
+  Mask is_driven_[Rows], unknown_[Rows], at_upper_[kContacts], at_lower_[kContacts], is_limiting_[Rows];
+  Real df_[Rows], da_[Rows], s_ = {}, wants_ = {};
   Real error_;
 };
 

@@ -80,23 +80,18 @@ Judgement Judge(Collector& collector, std::size_t policy, const Drawn& drawn, co
 // Rows: two for each contact, or dynamic, where bilateral and sliding contacts leave the problem before a run
 // (solver/problem/reduction.h).
 template <int Rows>
-class PlanarKernel final : public Kernel {
+class PlanarKernel : public Kernel {
  public:
+  using Vector = typename ContactProblem<double, Rows>::Vector;
+
   PlanarKernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {
     for (const Policy& policy : campaign.policies) {
       algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
     }
-    const bool batched = Rows == kBatchRows && campaign.policies.size() == 1 && !solvers.distort &&
-                         IsBatched(algorithms_.front().options());
-    if (batched && solvers.lanes != InstructionSet::kNone)
-      batch_ = std::make_unique<Batch>(solvers.lanes, algorithms_.front().options());
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
     const Surroundings surroundings = SurroundingsOf(campaign_);
-    if constexpr (Rows == kBatchRows) {
-      if (batch_ != nullptr) return RunBatched(unit, task, surroundings, collector, examiner);
-    }
     bool reduced = true;
     const auto draw = [&](Choices& choices) {
       drawn_ = Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
@@ -116,55 +111,8 @@ class PlanarKernel final : public Kernel {
            });
   }
 
- private:
-  using Vector = typename ContactProblem<double, Rows>::Vector;
-
-  // The same, many problems at once; what leaves the lanes is run by itself.
-  void RunBatched(std::int64_t unit, const Task& task, const Surroundings& surroundings, Collector& collector,
-                  Examiner& examiner) {
-    const std::int64_t problems = UnitProblems(campaign_, task);
-    Audits audits(campaign_, unit);
-    for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
-      const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
-      DrawBlock(unit, task, surroundings, first, count, collector);
-      batch_->Run(count);
-      for (int i = 0; i < count; ++i) {
-        const std::int64_t index = first + i;
-        const bool audit = audits.Next();
-        drawn_ = batch_->DrawnOf(i);
-        if (batch_->IsLeft(i)) {
-          batch_->Get(i, problem_);
-          Try(index, 0, audit, collector, examiner);
-        } else {
-          Conclude(batch_->VerdictOf(i), index, 0, audit, collector, examiner,
-                   [&] { return batch_->Error(i); });
-        }
-      }
-    }
-  }
-
-  void DrawBlock(std::int64_t unit, const Task& task, const Surroundings& surroundings, std::int64_t first,
-                 int count, Collector& collector) {
-    const Spending spending(collector.meter(), &ProcessorTime::generation);
-    const auto u = static_cast<std::uint64_t>(unit);
-    if (IsDrawnInLanes(task.generator))
-      return batch_->Draw(task.generator, surroundings.palette, campaign_.seed, u, first, count);
-    for (int i = 0; i < count; ++i) {
-      Choices choices(ProblemSeed(campaign_.seed, u, static_cast<std::uint64_t>(first + i)));
-      const Drawn drawn =
-          Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
-      batch_->Put(i, problem_, drawn);
-    }
-  }
-
-  // A problem that bilateral and sliding contacts cannot leave over doubles: exact arithmetic decides.
-  void Refuse(std::int64_t index, std::size_t policy, Collector& collector, Examiner& examiner) {
-    Verdict verdict;
-    verdict.outcome = Outcome::kSingular;
-    collector.Count(policy, drawn_, verdict);
-    examiner.RunAgain(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
-  }
-
+ protected:
+  // The problem that was drawn last, under one policy.
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector, Examiner& examiner) {
     Verdict verdict = algorithms_[policy].Run(problem_);
     const Vector* f = &algorithms_[policy].state().f;
@@ -184,6 +132,19 @@ class PlanarKernel final : public Kernel {
     if (suspected || audit) examiner.RunAgain(index, policy, verdict.outcome, wrong, suspected);
   }
 
+  const Campaign& campaign_;
+  ContactProblem<double, Rows> problem_;
+  Drawn drawn_;
+
+ private:
+  // A problem that bilateral and sliding contacts cannot leave over doubles: exact arithmetic decides.
+  void Refuse(std::int64_t index, std::size_t policy, Collector& collector, Examiner& examiner) {
+    Verdict verdict;
+    verdict.outcome = Outcome::kSingular;
+    collector.Count(policy, drawn_, verdict);
+    examiner.RunAgain(index, policy, verdict.outcome, /*wrong=*/false, /*suspected=*/true);
+  }
+
   // Of f alone: the accelerations are computed anew. Of the whole problem, whose A is symmetric.
   double Error(const Vector& f) {
     if constexpr (Rows == Eigen::Dynamic) {
@@ -200,15 +161,69 @@ class PlanarKernel final : public Kernel {
     return MeasureErrors(problem_, FrictionLaw::kCoulomb, f, a, units_, 0.0).Largest();
   }
 
-  const Campaign& campaign_;
   const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
-  ContactProblem<double, Rows> problem_;
   ContactProblem<double> whole_;                // of other kinds, before reduction
   std::optional<Reduction<double>> reduction_;  // likewise
   Units<double> units_;
-  Drawn drawn_;
-  std::unique_ptr<Batch> batch_;  // null: problems are run one by one
+};
+
+// The same under the policy `paper`, many problems at once; what leaves the lanes is run by itself.
+template <int Rows>
+class BatchedKernel final : public PlanarKernel<Rows> {
+ public:
+  BatchedKernel(const Campaign& campaign, const UnitSolvers& solvers)
+      : PlanarKernel<Rows>(campaign, solvers), batch_(solvers.lanes, OptionsOf(campaign)) {}
+
+  static bool Handles(const Campaign& campaign, const UnitSolvers& solvers) {
+    return solvers.lanes != InstructionSet::kNone && !solvers.distort && campaign.policies.size() == 1 &&
+           IsBatched(OptionsOf(campaign));
+  }
+
+  void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
+    const std::int64_t problems = UnitProblems(campaign_, task);
+    Audits audits(campaign_, unit);
+    for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
+      const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
+      DrawBlock(unit, task, first, count, collector);
+      batch_.Run(count);
+      for (int i = 0; i < count; ++i) {
+        const std::int64_t index = first + i;
+        const bool audit = audits.Next();
+        drawn_ = batch_.DrawnOf(i);
+        if (batch_.IsLeft(i)) {
+          batch_.Get(i, problem_);
+          this->Try(index, 0, audit, collector, examiner);
+        } else {
+          this->Conclude(batch_.VerdictOf(i), index, 0, audit, collector, examiner,
+                         [&] { return batch_.Error(i); });
+        }
+      }
+    }
+  }
+
+ private:
+  using PlanarKernel<Rows>::campaign_, PlanarKernel<Rows>::problem_, PlanarKernel<Rows>::drawn_;
+
+  static PublishedOptions OptionsOf(const Campaign& campaign) {
+    return {campaign.policies.front(), {}, campaign.limits};
+  }
+
+  void DrawBlock(std::int64_t unit, const Task& task, std::int64_t first, int count, Collector& collector) {
+    const Spending spending(collector.meter(), &ProcessorTime::generation);
+    const Surroundings surroundings = SurroundingsOf(campaign_);
+    const auto u = static_cast<std::uint64_t>(unit);
+    if (IsDrawnInLanes(task.generator))
+      return batch_.Draw(task.generator, surroundings.palette, campaign_.seed, u, first, count);
+    for (int i = 0; i < count; ++i) {
+      Choices choices(ProblemSeed(campaign_.seed, u, static_cast<std::uint64_t>(first + i)));
+      const Drawn drawn =
+          Generate<double, Rows>(task.generator, task.contacts, surroundings, choices, problem_);
+      batch_.Put(i, problem_, drawn);
+    }
+  }
+
+  Batch<Rows> batch_;
 };
 
 // Problems that are decided with certified signs from the start.
@@ -263,6 +278,16 @@ class SpaceKernel final : public Kernel {
   Drawn drawn_;
 };
 
+template <int Contacts>
+std::unique_ptr<Kernel> MakePlanar(const Campaign& campaign, const UnitSolvers& solvers) {
+  constexpr int kRows = 2 * Contacts;
+  if constexpr (HasLanes(kRows)) {
+    if (BatchedKernel<kRows>::Handles(campaign, solvers))
+      return std::make_unique<BatchedKernel<kRows>>(campaign, solvers);
+  }
+  return std::make_unique<PlanarKernel<kRows>>(campaign, solvers);
+}
+
 }  // namespace
 
 std::unique_ptr<Kernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, const Task& task) {
@@ -272,21 +297,21 @@ std::unique_ptr<Kernel> MakeKernel(const Campaign& campaign, const UnitSolvers& 
     return std::make_unique<PlanarKernel<Eigen::Dynamic>>(campaign, solvers);
   switch (task.contacts) {
     case 1:
-      return std::make_unique<PlanarKernel<2>>(campaign, solvers);
+      return MakePlanar<1>(campaign, solvers);
     case 2:
-      return std::make_unique<PlanarKernel<4>>(campaign, solvers);
+      return MakePlanar<2>(campaign, solvers);
     case 3:
-      return std::make_unique<PlanarKernel<6>>(campaign, solvers);
+      return MakePlanar<3>(campaign, solvers);
     case 4:
-      return std::make_unique<PlanarKernel<8>>(campaign, solvers);
+      return MakePlanar<4>(campaign, solvers);
     case 5:
-      return std::make_unique<PlanarKernel<10>>(campaign, solvers);
+      return MakePlanar<5>(campaign, solvers);
     case 6:
-      return std::make_unique<PlanarKernel<12>>(campaign, solvers);
+      return MakePlanar<6>(campaign, solvers);
     case 7:
-      return std::make_unique<PlanarKernel<14>>(campaign, solvers);
+      return MakePlanar<7>(campaign, solvers);
     case 8:
-      return std::make_unique<PlanarKernel<16>>(campaign, solvers);
+      return MakePlanar<8>(campaign, solvers);
     default:
       throw InputError(
           fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));

@@ -20,7 +20,8 @@
 namespace stiction {
 namespace {
 
-using SmallProblem = Batch::Problem;
+template <int Rows>
+using Small = typename Batch<Rows>::Problem;
 
 std::vector<InstructionSet> SetsOfLanes() {
   std::vector<InstructionSet> sets = InstructionSets();
@@ -31,10 +32,11 @@ std::vector<InstructionSet> SetsOfLanes() {
 
 std::uint64_t BitsOf(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-double ErrorOfForces(const SmallProblem& problem, const SmallProblem::Vector& f) {
-  SmallProblem::Vector a = problem.b;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) a[i] += problem.A(i, j) * f[j];
+template <int Rows>
+double ErrorOfForces(const Small<Rows>& problem, const typename Small<Rows>::Vector& f) {
+  typename Small<Rows>::Vector a = problem.b;
+  for (int i = 0; i < Rows; ++i) {
+    for (int j = 0; j < Rows; ++j) a[i] += problem.A(i, j) * f[j];
   }
   return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
 }
@@ -43,20 +45,22 @@ struct LaneComparison {
   int problems = 0, left = 0, differ = 0, unsolved = 0, zero_steps = 0, singular = 0;
 };
 
-bool EndsAlike(const Batch& batch, int i, const SmallProblem& problem, const Verdict& verdict,
-               const SmallProblem::Vector& f) {
+template <int Rows>
+bool EndsAlike(const Batch<Rows>& batch, int i, const Small<Rows>& problem, const Verdict& verdict,
+               const typename Small<Rows>::Vector& f) {
   const Verdict mine = batch.VerdictOf(i);
   bool same = verdict.outcome == Outcome::kSolved && mine.outcome == verdict.outcome &&
               mine.statistics == verdict.statistics && mine.start == verdict.start &&
               mine.period == verdict.period && mine.reason == verdict.reason;
-  for (int row = 0; row < 4; ++row) same &= BitsOf(batch.Forces(i)[row]) == BitsOf(f[row]);
-  return same && BitsOf(batch.Error(i)) == BitsOf(ErrorOfForces(problem, f));
+  for (int row = 0; row < Rows; ++row) same &= BitsOf(batch.Forces(i)[row]) == BitsOf(f[row]);
+  return same && BitsOf(batch.Error(i)) == BitsOf(ErrorOfForces<Rows>(problem, f));
 }
 
-LaneComparison CompareLanes(InstructionSet set, const std::vector<SmallProblem>& problems) {
+template <int Rows>
+LaneComparison CompareLanes(InstructionSet set, const std::vector<Small<Rows>>& problems) {
   const PublishedOptions options;
-  PublishedAlgorithm<double, 4> algorithm(options);
-  const auto batch = std::make_unique<Batch>(set, options);
+  PublishedAlgorithm<double, Rows> algorithm(options);
+  const auto batch = std::make_unique<Batch<Rows>>(set, options);
   LaneComparison c;
   const int size = static_cast<int>(problems.size());
   for (int first = 0; first < size; first += kBlockProblems) {
@@ -64,13 +68,13 @@ LaneComparison CompareLanes(InstructionSet set, const std::vector<SmallProblem>&
     for (int i = 0; i < count; ++i) batch->Put(i, problems[first + i], {});
     batch->Run(count);
     for (int i = 0; i < count; ++i) {
-      const SmallProblem& problem = problems[first + i];
+      const Small<Rows>& problem = problems[first + i];
       const Verdict verdict = algorithm.Run(problem);
       ++c.problems;
       c.unsolved += verdict.outcome != Outcome::kSolved;
       c.left += batch->IsLeft(i);
       if (batch->IsLeft(i)) continue;
-      c.differ += !EndsAlike(*batch, i, problem, verdict, algorithm.state().f);
+      c.differ += !EndsAlike<Rows>(*batch, i, problem, verdict, algorithm.state().f);
       c.zero_steps += verdict.statistics.longest_zero_run > 1;
       c.singular += verdict.statistics.singular_directions > 0;
     }
@@ -78,11 +82,12 @@ LaneComparison CompareLanes(InstructionSet set, const std::vector<SmallProblem>&
   return c;
 }
 
-std::vector<SmallProblem> DrawnProblems(GeneratorId id, std::span<const MuChoice> palette, int count) {
-  std::vector<SmallProblem> problems(count);
+template <int Rows>
+std::vector<Small<Rows>> DrawnProblems(GeneratorId id, std::span<const MuChoice> palette, int count) {
+  std::vector<Small<Rows>> problems(count);
   for (int i = 0; i < count; ++i) {
     Choices choices(ProblemSeed(11, 3, i));
-    Generate<double, 4>(id, 2, palette, choices, problems[i]);
+    Generate<double, Rows>(id, Rows / 2, palette, choices, problems[i]);
   }
   return problems;
 }
@@ -90,17 +95,19 @@ std::vector<SmallProblem> DrawnProblems(GeneratorId id, std::span<const MuChoice
 // With no friction and with rounded coefficients.
 constexpr std::array<MuChoice, 6> kRoughPalette = {{{0, 1}, {1, 3}, {1, 1}, {7, 5}, {5, 1}, {1000, 1}}};
 
-TEST_CASE("batch: lanes end as the algorithm does, to the bit, whatever the generator and the coefficients") {
+TEMPLATE_TEST_CASE_SIG(
+    "batch: lanes end as the algorithm does, to the bit, whatever the generator and the coefficients", "",
+    ((int Rows), Rows), 4, 6, 8) {
   for (const InstructionSet set : SetsOfLanes()) {
     int zero_steps = 0, singular = 0;
     for (const GeneratorRow& row : Generators()) {
       if (!row.IsPlain()) continue;
       CAPTURE(row.name, Name(set));
-      const LaneComparison c = CompareLanes(set, DrawnProblems(row.id, kDefaultPalette, 6000));
+      const LaneComparison c = CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kDefaultPalette, 6000));
       CHECK(c.differ == 0);
       CHECK(c.left >= c.unsolved);
       CHECK(c.left < c.problems / 2);
-      const LaneComparison rough = CompareLanes(set, DrawnProblems(row.id, kRoughPalette, 6000));
+      const LaneComparison rough = CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kRoughPalette, 6000));
       CHECK(rough.differ == 0);
       zero_steps += c.zero_steps + rough.zero_steps;
       singular += c.singular + rough.singular;
@@ -112,23 +119,24 @@ TEST_CASE("batch: lanes end as the algorithm does, to the bit, whatever the gene
 
 // Small integers, or thirds of them, which are rounded: ties and zeros of either sign, A neither symmetric nor
 // semidefinite.
-TEST_CASE("batch: lanes end as the algorithm does where A is any matrix") {
+TEMPLATE_TEST_CASE_SIG("batch: lanes end as the algorithm does where A is any matrix", "", ((int Rows), Rows),
+                       4, 6, 8) {
   for (const InstructionSet set : SetsOfLanes()) {
     for (const int most : {1, 3}) {
-      std::vector<SmallProblem> problems(60000);
+      std::vector<Small<Rows>> problems(60000);
       Choices choices(5);
       double unit = 1;
       const auto entry = [&] { return unit * static_cast<double>(choices.Integer(-most, most)); };
-      for (SmallProblem& problem : problems) {
+      for (Small<Rows>& problem : problems) {
         unit = choices.Integer(0, 1) == 0 ? 1 : 1.0 / 3;
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < Rows; ++i) {
           problem.b[i] = entry();
-          for (int j = 0; j < 4; ++j) problem.A(i, j) = choices.Integer(0, 9) == 0 ? -0.0 : entry();
+          for (int j = 0; j < Rows; ++j) problem.A(i, j) = choices.Integer(0, 9) == 0 ? -0.0 : entry();
           problem.A(i, i) = unit * static_cast<double>(1 + choices.Integer(0, 2 * most));
         }
         for (auto& contact : problem.contacts) contact.mu = static_cast<double>(choices.Integer(0, 4)) / 2;
       }
-      const LaneComparison c = CompareLanes(set, problems);
+      const LaneComparison c = CompareLanes<Rows>(set, problems);
       CHECK(c.differ == 0);
       CHECK(c.unsolved > 500);
       CHECK(c.left < 57000);
@@ -136,14 +144,16 @@ TEST_CASE("batch: lanes end as the algorithm does where A is any matrix") {
   }
 }
 
-TEST_CASE("batch: numbers that are huge, tiny or not finite are left, or end as the algorithm does") {
+TEMPLATE_TEST_CASE_SIG(
+    "batch: numbers that are huge, tiny or not finite are left, or end as the algorithm does", "",
+    ((int Rows), Rows), 4, 6, 8) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
-  const std::vector<SmallProblem> drawn = DrawnProblems(GeneratorId::kPsd, kDefaultPalette, 600);
-  std::vector<SmallProblem> problems;
+  const std::vector<Small<Rows>> drawn = DrawnProblems<Rows>(GeneratorId::kPsd, kDefaultPalette, 600);
+  std::vector<Small<Rows>> problems;
   for (const double scale : {1e-300, 1e-160, 1e150, 1e307}) {
     for (const double of_b : {1e-200, 1.0, 1e200}) {
-      for (SmallProblem problem : drawn) {
+      for (Small<Rows> problem : drawn) {
         problem.A *= scale;
         problem.b *= of_b;
         problems.push_back(problem);
@@ -152,23 +162,28 @@ TEST_CASE("batch: numbers that are huge, tiny or not finite are left, or end as 
   }
   const std::size_t finite = problems.size();
   for (const double bad : {nan, infinity, -infinity}) {
-    for (int k = 0; k < 22; ++k) {
-      SmallProblem problem = drawn[k];
-      (k < 16 ? problem.A(k / 4, k % 4) : k < 20 ? problem.b[k - 16] : problem.contacts[k - 20].mu) = bad;
+    constexpr int kEntries = Rows * Rows, kNumbers = kEntries + Rows + Rows / 2;
+    for (int k = 0; k < kNumbers; ++k) {
+      Small<Rows> problem = drawn[k];
+      (k < kEntries          ? problem.A(k / Rows, k % Rows)
+       : k < kEntries + Rows ? problem.b[k - kEntries]
+                             : problem.contacts[k - kEntries - Rows].mu) = bad;
       problems.push_back(problem);
     }
   }
   for (const InstructionSet set : SetsOfLanes()) {
-    CHECK(CompareLanes(set, problems).differ == 0);
-    const LaneComparison bad = CompareLanes(set, {problems.begin() + finite, problems.end()});
+    CHECK(CompareLanes<Rows>(set, problems).differ == 0);
+    const LaneComparison bad =
+        CompareLanes<Rows>(set, std::vector<Small<Rows>>(problems.begin() + finite, problems.end()));
     CHECK(bad.left == bad.problems);
   }
 }
 
-TEST_CASE("batch: problems drawn in lanes are those of the generator, to the bit") {
+TEMPLATE_TEST_CASE_SIG("batch: problems drawn in lanes are those of the generator, to the bit", "",
+                       ((int Rows), Rows), 4, 6, 8) {
   constexpr int kCount = 253;
   for (const InstructionSet set : SetsOfLanes()) {
-    const auto batch = std::make_unique<Batch>(set, PublishedOptions{});
+    const auto batch = std::make_unique<Batch<Rows>>(set, PublishedOptions{});
     for (const GeneratorRow& row : Generators()) {
       if (!IsDrawnInLanes(row.id)) continue;
       CAPTURE(row.name, Name(set));
@@ -176,17 +191,18 @@ TEST_CASE("batch: problems drawn in lanes are those of the generator, to the bit
       for (std::int64_t first = 0; first < 20 * kCount; first += kCount) {
         batch->Draw(row.id, kRoughPalette, 77, 5, first, kCount);
         for (int i = 0; i < kCount; ++i) {
-          SmallProblem drawn, generated;
+          Small<Rows> drawn, generated;
           batch->Get(i, drawn);
           Choices choices(ProblemSeed(77, 5, static_cast<std::uint64_t>(first + i)));
-          const Drawn expected = Generate<double, 4>(row.id, 2, kRoughPalette, choices, generated);
+          const Drawn expected = Generate<double, Rows>(row.id, Rows / 2, kRoughPalette, choices, generated);
           bool same =
               batch->DrawnOf(i).friction == expected.friction && batch->DrawnOf(i).rank == expected.rank;
-          for (int r = 0; r < 4; ++r) {
+          for (int r = 0; r < Rows; ++r) {
             same &= BitsOf(drawn.b[r]) == BitsOf(generated.b[r]);
-            for (int j = 0; j < 4; ++j) same &= BitsOf(drawn.A(r, j)) == BitsOf(generated.A(r, j));
+            for (int j = 0; j < Rows; ++j) same &= BitsOf(drawn.A(r, j)) == BitsOf(generated.A(r, j));
           }
-          for (int k = 0; k < 2; ++k) same &= BitsOf(drawn.contacts[k].mu) == BitsOf(generated.contacts[k].mu);
+          for (int k = 0; k < Rows / 2; ++k)
+            same &= BitsOf(drawn.contacts[k].mu) == BitsOf(generated.contacts[k].mu);
           differ += !same;
         }
       }
@@ -197,10 +213,10 @@ TEST_CASE("batch: problems drawn in lanes are those of the generator, to the bit
 
 TEST_CASE("batch: a unit leaves the same record and findings with every instruction set and with none") {
   Campaign campaign;
-  campaign.contacts = {2};
-  campaign.unit_problems = 2 * kBlockProblems + 87;
+  campaign.contacts = {2, 3, 4};
+  campaign.unit_problems = 4 * kBlockProblems + 87;
   campaign.audit_every = 100;
-  const std::size_t units = campaign.generators.size();
+  const std::size_t units = Schedule(campaign).size();
   UnitRunner alone(campaign, {.lanes = InstructionSet::kNone});
   std::vector<UnitResult> expected;
   for (std::size_t unit = 0; unit < units; ++unit) expected.push_back(alone.Run(unit));
