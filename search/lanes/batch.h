@@ -53,7 +53,7 @@ class Batch {
   // What the algorithm says of problem i. Requires !IsLeft(i).
   Verdict VerdictOf(int i) const;
   bool IsLeft(int i) const { return block_.ends[i].is_left; }
-  std::span<const double, Rows> Forces(int i) const { return block_.f[i]; }
+  double Force(int i, int row) const { return block_.f[row][i]; }
   // The largest of MeasureErrors (solver/problem/errors.h), with accelerations computed anew.
   double Error(int i) const { return block_.error[i]; }
 

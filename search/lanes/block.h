@@ -31,8 +31,8 @@ struct Block {
   std::int32_t friction[kBlockRoom];
   std::int32_t columns[kBlockRoom];
   LaneEnd ends[kBlockProblems];
-  double f[kBlockProblems][Rows];
-  double error[kBlockProblems];  // the largest, with accelerations computed anew
+  double f[Rows][kBlockRoom];
+  double error[kBlockRoom];  // the largest, with accelerations computed anew
 };
 
 // Of Scale, before they are multiplied by the numbers of a problem.

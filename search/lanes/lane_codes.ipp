@@ -3,6 +3,7 @@
 
 #include "search/lanes/block.h"
 #include "search/lanes/draw_lanes.ipp"
+#include "search/lanes/error_lanes.ipp"
 #include "search/lanes/run_lanes.ipp"
 
 namespace stiction {
@@ -12,6 +13,7 @@ template <int Rows>
 constexpr LaneCode<Rows> kLaneCode = {
     [](Block<Rows>& block, int count, const LaneTolerances& tolerances) {
       LaneRuns<Rows>(block, count, tolerances).Run();
+      MeasureErrorsOf(block, count);
     },
     [](Block<Rows>& block, const LaneDraw& draw) { LaneDraws<Rows>(block, draw).Draw(); },
 };

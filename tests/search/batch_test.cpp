@@ -52,7 +52,7 @@ bool EndsAlike(const Batch<Rows>& batch, int i, const Small<Rows>& problem, cons
   bool same = verdict.outcome == Outcome::kSolved && mine.outcome == verdict.outcome &&
               mine.statistics == verdict.statistics && mine.start == verdict.start &&
               mine.period == verdict.period && mine.reason == verdict.reason;
-  for (int row = 0; row < Rows; ++row) same &= BitsOf(batch.Forces(i)[row]) == BitsOf(f[row]);
+  for (int row = 0; row < Rows; ++row) same &= BitsOf(batch.Force(i, row)) == BitsOf(f[row]);
   return same && BitsOf(batch.Error(i)) == BitsOf(ErrorOfForces<Rows>(problem, f));
 }
 
