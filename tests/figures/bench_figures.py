@@ -146,10 +146,10 @@ def search_rate(program):
 
 def lanes(program):
     result = program.bench("search")
-    sets = [name for name in result["lanes"][0] if name != "generator"]
-    rates = table(["two contacts, problems a second", "one by one", *(f"lanes of {name}" for name in sets[1:]),
+    sets = [name for name in result["lanes"][0] if name not in ("generator", "contacts")]
+    rates = table(["problems a second", "contacts", "one by one", *(f"lanes of {name}" for name in sets[1:]),
                    "times as many"],
-                  [(f"`{row['generator']}`", *(spread(row[name]) for name in sets),
+                  [(f"`{row['generator']}`", row["contacts"], *(spread(row[name]) for name in sets),
                     f"{row[sets[-1]][1] / row['none'][1]:.2f}") for row in result["lanes"]])
     roof = table(["of one problem of `integers`", "how many", "most a second", "allows problems a second",
                   "reached, problems a second", "of what it allows"],

@@ -84,7 +84,7 @@ MEASUREMENTS = [
                 "Problems a second of a search, by generator and contacts; what its time goes to; beside Siconos's "
                 "Lemke.", SICONOS),
     Measurement("lanes", "minutes", bench.lanes,
-                "Problems of two contacts in the lanes of vectors beside one after the other, and a roofline."),
+                "Problems of two to four contacts in the lanes of vectors beside one after the other, and a roofline."),
     Measurement("peers-in-short", "long", bench.peers_in_short,
                 "The fast method beside the packages of others, in short.", PEERS),
     Measurement("smallest", "minutes", bench.smallest, "The smallest integers with which two contacts loop."),
