@@ -54,7 +54,7 @@ class Groups {
   template <class Problem>
   void Find(const Problem& problem) {
     Begin(problem);
-    ForEachEntry(problem.A, [this](int i, int j, const auto& x) { Join(i, j, x); });
+    ForEachEntry(problem.A, [this](int i, int j, const auto& x) { this->Join(i, j, x); });
     End();
   }
 
