@@ -45,6 +45,7 @@ false("psd", "the product lacks its last term", smooth([[1, 1], [1, 1]], [0, 0])
       L=texts([[1, 0], [1, 1]]), D=texts([1, 5]))
 false("psd", "A differs above the diagonal", smooth([[1, 7], [0, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
 false("psd", "A differs below the diagonal", smooth([[1, 0], [7, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
+false("psd", "A differs beside its diagonal", smooth([[1, 7], [7, 1]], [0, 0]), L=texts(IDENTITY), D=texts([1, 1]))
 false("psd", "a diagonal of L that is not one", smooth([[4]], [0]), L=texts([[2]]), D=texts([1]))
 false("psd", "an entry of L above the diagonal", smooth(IDENTITY, [0, 0]), L=texts([[1, 1], [0, 1]]), D=texts([1, 1]))
 false("psd", "L of too few rows", smooth(IDENTITY, [0, 0]), L=texts([[1, 0]]), D=texts([1, 1]))
@@ -159,6 +160,7 @@ for side in (1, -1):
     false_solution(f"friction pushes along, side {side}", problem([1], IDENTITY, [-1, 2 * side]), [1, side])
     false_solution(f"slipping within its limit, side {side}", problem([1], IDENTITY, [-1, 2 * side]),
                    [1, Fraction(-side, 2)])
+    false_solution(f"slipping, fN < 0, side {side}", problem([1], IDENTITY, [1, 0]), [-1, side])
     false_solution(f"friction without a normal force, side {side}", problem([1], IDENTITY, [1, side]), [0, -side])
 false_solution("slipping without friction", problem([1], IDENTITY, [-1, 2]), [1, 0])
 false_solution("static, fN < 0", problem([1], IDENTITY, [1, 0]), [-1, 0])
@@ -496,8 +498,8 @@ for claim in ("psd", "in-range", "h", "exists"):
              factors=factors(IDENTITY, [[[1, 2], [2, 1]]], FREE))
     false_by("a block whose second diagonal is negative", A=[[1, 0], [0, -1]], b=FREE,
              factors=factors(IDENTITY, [[[1, 0], [0, -1]]], FREE))
-    false_by("a block that is not symmetric", A=[[1, -1], [0, 1]], b=FREE,
-             factors=factors(IDENTITY, [[[1, 1], [0, 1]]], FREE))
+    for what, A in (("", [[1, -1], [0, 1]]), (", A its transposed inverse", [[1, 0], [-1, 1]])):
+        false_by("a block that is not symmetric" + what, A=A, b=FREE, factors=factors(IDENTITY, [[[1, 1], [0, 1]]], FREE))
     false_by("a mass of zero", factors=factors(JACOBIAN, [2, 0], FREE))
     false_by("a velocity without a mass", factors=factors(JACOBIAN, [2], [-2]))
     false_by("a mass without a velocity", factors=factors(JACOBIAN, [*MASSES, 1], [*FREE, 0]))
@@ -587,6 +589,11 @@ false("cycle", "a policy that solves the problem", CYCLING, runs=[run(["file=yes
 false("cycle", "a policy that solves it, behind one that cycles", CYCLING,
       runs=[run(["paper", "file=yes,drop=variable"])])
 false("cycle", "a problem that is solved", {**CYCLING, "b": texts([2, 1, 2, 2])}, runs=[run(["paper"])])
+END = {"sets": {"N1": "C"}, "f": ["1"]}
+for start, period in ((None, None), (0, 1), (1, 1), (1, 0)):
+    false("cycle", f"a run that ends at a solution, start {start}, period {period}", smooth([[1]], [-1]),
+          runs=[{"policies": ["paper"], "start": start, "period": period, "pivots": pivots(1, "1 N1 establish 1 N1 none C"),
+                 "state": END}])
 false("cycle", "the friction of another problem", {**CYCLING, "contacts": [contact(1), contact(2)]},
       runs=[run(["paper"])])
 false("cycle", "a run that has not come back yet", CYCLING,
