@@ -234,6 +234,39 @@ class LoopsInSpace(cli.TestCase):
             done = cli.run("certify", problem, "--claim", "ray", "--policy", policy, "-o", self.folder / "none.json")
             self.assertEqual(done.code, 3, done.out + done.err)
 
+    def test_numbers_of_the_independent_checker_enclose(self):
+        """All small ends, rounded to eighths; and a sign or an inverse that these do not tell is refused."""
+        sys.path.insert(0, str(cli.ROOT / "certify"))
+        from check_runs_in_space import Number, Unsure, distance, sign
+        Number.bits = 3
+        unit, ends = Fraction(1, 8), [(a, a + length) for a in range(-8, 9) for length in (0, 1, 5)]
+
+        def holds(number, *values):
+            for x in values:
+                self.assertTrue(number.low * unit <= x <= number.high * unit, (number.low, number.high, x))
+
+        for a, b in ends:
+            x, apart = Number(a, b), not a <= 0 <= b
+            told = [(lambda: sign(x), apart or a == b == 0), (x.inverse, apart), (x.root, a > 0 or a == b == 0)]
+            for what, known in told:
+                if not known:
+                    self.assertRaises(Unsure, what)
+            if apart:
+                self.assertEqual(sign(x), 1 if a > 0 else -1)
+                holds(x.inverse(), 1 / (a * unit), 1 / (b * unit))
+            if a > 0:
+                root = x.root()
+                self.assertTrue((root.low * unit)**2 <= a * unit and b * unit <= (root.high * unit)**2)
+            self.assertEqual(distance(Fraction(0), (a, b)), max(abs(a), abs(b)) * unit)
+            for c, d in ends:
+                y = Number(c, d)
+                holds(x * y, *(u * v * unit**2 for u in (a, b) for v in (c, d)))
+                holds(x - y, (a - d) * unit, (b - c) * unit)
+            side = Number.side(0, 1, a * unit, Fraction(5, 16))
+            for t in (-1, 0, 1):
+                at = a * unit + t * Fraction(5, 16)
+                holds(side * side - side, at * at - at)
+
     def run_of(self, proof):
         """The run of a certificate, of the independent checker."""
         sys.path.insert(0, str(cli.ROOT / "certify"))
