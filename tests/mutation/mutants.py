@@ -107,6 +107,19 @@ bug("CheckRuns", "claim-cycle-run-twice", "p == 0 && !different.insert(StepsAsTe
 bug("CheckCounterexample", "claim-counterexample-solution", "RequireSolution(problem, witness);", "",
     "counterexample: any f")
 
+# ---- certify/exact/loops_in_space.cpp ----
+
+bug("LeavesBox", "loops-spread", "k < centre.size()", "k < 1", "box: coordinates depend on the first alone")
+bug("FaultOfPlace", "loops-place", "!IsInBox(problem.memory().CoordinatesOf(state, loop.charts), loop.centre, loop.radii)",
+    "false", "box: the run need not come to it")
+bug("FaultOfStates", "loops-memory", "!problem.memory().Of(state).empty()", "false", "states: anything is remembered")
+bug("FaultOfRecurrence", "loops-injective", "!IsInjective(image, moving)", "false", "endless: all points may come to one")
+bug("FaultOfRecurrence", "loops-moves", "std::ranges::any_of(moving, moves)", "true", "endless: of a state that recurs")
+bug("FaultOfTurnings", "loops-punctured", "return FaultOfRecurrence(problem, state, loop, image);", "return std::nullopt;",
+    "punctured: the run may come to the fixed point")
+bug("FindLoopFault", "loops-start", "walk.drives() != loop.start", "false", "a start between two scans")
+bug("FindRayFault", "loops-ray", "end != Name(Outcome::kRay)", "false", "ray: of a run that ends otherwise")
+
 # ---- What every claim has ----
 
 bug("CheckCertificate", "certificate-digest", "!digest.empty() && report.digest != digest", "false",

@@ -46,9 +46,9 @@ DRAWN_FROM = ("solver", "certify", "search", "corpus")
 NOT_DRAWN_FROM = "certify/ipopt/"  # a program that includes nothing of the others
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
 LABELS = ("solver", "certify", "search", "corpus")
-PROGRAMS = ("attacks_test", "certificate_test", "coulomb_exact_test", "existence_test", "false_claims_test", "formats_test",
-            "limits_test", "outputs_test", "paths_test", "problem_test", "replay_test", "solve_test", "store_test",
-            "under_test_test")
+PROGRAMS = ("attacks_test", "certificate_test", "coulomb_exact_test", "existence_test", "false_claims_test",
+            "false_loops_in_space_test", "formats_test", "limits_test", "outputs_test", "paths_test", "problem_test",
+            "replay_test", "solve_test", "store_test", "under_test_test")
 TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 PYTHON = '''import os
