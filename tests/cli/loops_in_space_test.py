@@ -290,6 +290,19 @@ class LoopsInSpace(cli.TestCase):
         self.assertEqual(self.verdicts([box]), [False])
         self.assertIn("as far as the period leads", cli.run("check", self.folder / "0.json").out.replace("\n ", ""))
 
+    def test_words_of_loops_are_explained(self):
+        """What check and replay print of them, by the table of words."""
+        words = {name for row in json.loads(self.succeeds("words", "--json").out) for name in row["word"].split(", ")}
+        for proof in self.proofs("paper"):
+            self.verdicts([proof])
+            self.assertIn(f"kind {proof['witness']['kind']}", " ".join(cli.run("check", self.folder / "0.json").out.split()))
+            self.assertIn(f"kind {proof['witness']['kind']}", words)
+        self.assertLessEqual({"kind punctured", "endless", "turns away"}, words)
+        turning = self.folder / "punctured.json"
+        turning.write_text(json.dumps(PUNCTURED))
+        said = cli.run("replay", turning, "--policy", "slip=redirect", "--max-drives", "4").out
+        self.assertIn("turns away", " ".join(said.split()))
+
     def test_other_contacts_are_refused_by_name(self):
         file = self.folder / "bilateral.json"
         unit = [[str(int(i == j)) for j in range(4)] for i in range(4)]
