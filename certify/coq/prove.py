@@ -59,7 +59,7 @@ THEOREMS = [
     ("existence.Theorems.coulomb_solution_exists_definite", "existence.Statement.coulomb_definite", CLASSICAL,
      "A positive definite, not symmetric: a solution exists for every b."),
     ("existence.Theorems.polygon_solution_exists", "existence.Statement.polygons_have_a_solution", {},
-     "Space, friction in a polygon: A symmetric positive semidefinite, (H): a solution exists."),
+     "Space, friction in one polygon, and (H) with its cones: a solution exists."),
     ("existence.Theorems.plane_solution_exists", "existence.Statement.plane_has_a_solution", {},
      "Plane: A symmetric positive semidefinite, b in range(A), mu >= 0: (15), (16) have a solution."),
     ("driving.Theorems.complete_driving_ends_in_a_solution", "driving.Statement.complete_driving_solves", {},
@@ -107,7 +107,7 @@ THEOREMS = [
     ("loops.Endless.endless_without_repetition", "loops.Statement.endless_run_without_repetition", {},
      "A run that never ends, and on which no state stands twice: endless/without-repetition.json, resume=round."),
     ("loops.Family.loops_near_K", "loops.Statement.paper_loops_near_K", {},
-     "At mu = 1 the reading `paper` loops at condition numbers as near as one likes to 3 + 2 sqrt(2)."),
+     "At mu = 1 the reading `paper` loops at condition numbers below any number above 3 + 2 sqrt(2)."),
     ("claims.Claims.solution_holds", None, {},
      "Plane and space, contacts of every kind: forces that Coq's check takes are a solution."),
     ("claims.Claims.coulomb_solution_holds", None, {},
@@ -127,8 +127,9 @@ FAMILY = ("loops.FamilyAll.loops_near_K_under_every_policy", "loops.Statement.ev
           "So does every policy.")
 
 FOLDERS = {
-    "existence": "Every problem with static friction has a solution",
-    "driving": "Complete driving ends",
+    "existence": "Every problem with static friction has a solution; where nothing else is said A is symmetric "
+                 "positive semidefinite and mu >= 0",
+    "driving": "Complete driving ends; A and mu as above",
     "loops": "The published algorithm loops",
     "claims": "Certificates about A, b and forces",
 }
