@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 from fractions import Fraction
+from unittest import mock
 
 import cli
 
@@ -267,6 +268,61 @@ class LoopsInSpace(cli.TestCase):
                 at = a * unit + t * Fraction(5, 16)
                 holds(side * side - side, at * at - at)
 
+    def test_states_of_a_box_that_are_not_of_their_sets_are_refused(self):
+        """By the independent checker, of points far from the box; of others all that the sets keep holds."""
+        kept_one = cli.ROOT / "corpus/space/certificates/no-state-twice.endless.json"  # one contact in CF
+        for proof in (self.proofs("slip=redirect")[1], json.loads(kept_one.read_text())):
+            run = self.run_of(proof)
+            from check_runs_in_space import Number, Unsure
+            run.run_until(proof["witness"]["start"])
+            refused = kept = 0
+            for k in range(-64, 65):
+                try:
+                    state = run.standing([Number.around(Fraction(k, 16))], proof["witness"]["charts"], None)
+                except Unsure:
+                    refused += 1
+                    continue
+                kept += 1
+                for i, row in enumerate(run.space.first):
+                    fN, fx, fy = (x.low for x in state.f[row:row + 3])
+                    self.assertGreaterEqual({"C": fN, "NC": state.a[row].low}.get(state.N[i], 0), 0)
+                    if state.F[i] == "CF":
+                        self.assertLess(fx**2 + fy**2, (float(run.space.mu[i].low) / 2**Number.bits * fN)**2)
+            self.assertGreater(min(refused, kept), 10)
+
+    def test_conditions_of_a_punctured_box_by_themselves(self):
+        """Of the independent checker: each is refused where the checker is told that it does not hold."""
+        problem = self.folder / "punctured.json"
+        problem.write_text(json.dumps(PUNCTURED))
+        proof = self.certificate(problem, "slip=redirect")
+        self.run_of(proof)
+        import check_runs_in_space as checker
+        from certificate_reader import Rejected, check
+        from check_runs import CLAIMS
+        image, name_of_line, ends = checker.image, checker.Run.name_of_line, checker.turnings_that_end
+
+        def of_any_slope(*given):
+            found, ends, begins = image(*given)
+            for aside, *_ in ends.turnings:
+                aside.slopes = aside.slopes and [(min(a, -b), max(b, -a)) for a, b in aside.slopes]
+            return found, ends, begins
+
+        self.assertIn("punctured", check(proof, CLAIMS))
+        fixed = "but at the fixed point"
+        for place, name, told, reason in (
+                (checker, "turnings_that_end", lambda *given: [False for _ in ends(*given)], fixed),
+                (checker, "turnings_that_end", lambda *_: [], "which contacts turn away"),
+                (checker, "image", of_any_slope, fixed),
+                (checker.Run, "name_of_line", lambda *given: (name_of_line(*given)[0], 1), fixed)):
+            with self.subTest(name=name, reason=reason), mock.patch.object(place, name, told):
+                self.assertRaisesRegex(Rejected, reason, check, proof, CLAIMS)
+        boxed = self.folder / "box.json"
+        boxed.write_text(json.dumps(IN_A_BOX))
+        several = self.certificate(boxed, "rezero=continue,slip=redirect")
+        self.assertEqual(len(several["witness"]["radii"]), 2)
+        several["witness"]["kind"] = "punctured"
+        self.assertRaisesRegex(Rejected, "1 in a punctured box", check, several, CLAIMS)
+
     def run_of(self, proof):
         """The run of a certificate, of the independent checker."""
         sys.path.insert(0, str(cli.ROOT / "certify"))
@@ -295,8 +351,9 @@ class LoopsInSpace(cli.TestCase):
         words = {name for row in json.loads(self.succeeds("words", "--json").out) for name in row["word"].split(", ")}
         for proof in self.proofs("paper"):
             self.verdicts([proof])
-            self.assertIn(f"kind {proof['witness']['kind']}", " ".join(cli.run("check", self.folder / "0.json").out.split()))
-            self.assertIn(f"kind {proof['witness']['kind']}", words)
+            kind = f"kind {proof['witness']['kind']}"
+            self.assertIn(kind, " ".join(cli.run("check", self.folder / "0.json").out.split()))
+            self.assertIn(kind, words)
         self.assertLessEqual({"kind punctured", "endless", "turns away"}, words)
         turning = self.folder / "punctured.json"
         turning.write_text(json.dumps(PUNCTURED))
