@@ -200,6 +200,12 @@ TEST_CASE(
   other = loop;
   other.centre[0] += 3 * loop.radii[0];
   CHECK(FaultyPlace(OfTurnings(), redirect, other) == "centre");
+  Policy going_on = redirect;
+  going_on.rezero = Rezero::kContinue;
+  other = Proof(OfBoxes(), going_on);
+  CHECK(other.radii.size() == 2);
+  other.punctured = true;
+  CHECK(FaultyPlace(OfBoxes(), going_on, other) == "radii");  // both coordinates move
 }
 
 // corpus/space/ray-under-slip-literal.json
