@@ -6,11 +6,14 @@ prove_test.py PATH_TO_STICTION SOURCES
 Needs no Coq: what Coq refuses is tried by `./run prove` itself, on false proofs of its own.
 """
 
+import json
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+from fractions import Fraction
 from pathlib import Path
 
 SOURCES = Path(sys.argv.pop(2) if len(sys.argv) > 2 else Path(__file__).resolve().parents[2])
@@ -43,6 +46,18 @@ class Scan(unittest.TestCase):
     def test_the_sources_as_they_are_pass(self):
         done = self.scan()
         self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_problems_of_the_statements_are_those_of_the_corpus(self):
+        text = (COQ / "loops/Statement.v").read_text()
+        found = re.findall(r"\(\* corpus/(\S+\.json)[^*]*\*\)\nDefinition \w+ : problem rationals := Problem\s(.*?)\.\n",
+                           text, re.S)
+        self.assertEqual([name for name, _ in found], ["cycle-every-policy-mu-1.json", "endless/without-repetition.json"])
+        for name, stated in found:
+            problem = json.loads((SOURCES / "corpus" / name).read_text())
+            numbers = [*(x for row in problem["A"] for x in row), *problem["b"], *(c["mu"] for c in problem["contacts"])]
+            stated = stated.replace("(", "").replace(")", "").replace(" # ", "/")
+            self.assertEqual(list(map(Fraction, re.findall(r"-?\d+(?:/\d+)?", stated))), list(map(Fraction, numbers)), name)
+            self.assertEqual({contact["kind"] for contact in problem["contacts"]}, {"static"})
 
     def test_what_leaves_something_unproved_is_refused(self):
         for text in ("Lemma l : False. Proof. Admitted.", "Axiom a : False.", "Local Axiom a : False.",
