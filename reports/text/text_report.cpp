@@ -362,11 +362,10 @@ std::string SummaryText(const Store& store, const std::string& file) {
   const StoreTotals t = TotalsOf(store);
   return HeadLine(t, store, file) + GraveLines(t) + RemarkLines(store.identity()) + Findings(t) +
          FinishText(t, file) + Paragraph(TimeText(t.work.time)) + SimplestText(t) +
-         Paragraph(
-             "More as text; all as a page, with files to replay and to check. The same search again goes on:",
-             0) +
+         Paragraph("More as text; all as a page, with files to replay and to check:", 0) +
          Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
-         Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
+         Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file))) +
+         Paragraph("The same search again goes on.", 0);
 }
 
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as, Extent extent) {
