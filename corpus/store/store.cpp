@@ -115,14 +115,16 @@ void RequireOwnFiles(const fs::path& file) {
 void RequireDatabase(const fs::path& file) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   const auto refuse = [&file](const std::string& found) {
-    throw InputError(fmt::format("{}: is no store of stiction but {}", file.string(), found));
+    throw InputError(fmt::format("{}: found {}, expected a store: a file that stiction search writes",
+                                 file.string(), found));
   };
   RequireOwnFiles(file);
-  if (fs::is_directory(file)) refuse("a directory");
+  if (fs::is_directory(file))
+    refuse(fs::exists(file / "findings.csv") ? "a report, which was made of a store" : "a directory");
   if (!fs::is_regular_file(file)) refuse("no regular file");
   std::string head(kMagic.size(), ' ');
   std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (head != kMagic) refuse(fmt::format("another file of {} bytes", fs::file_size(file)));
+  if (head != kMagic) refuse(fmt::format("another file, of {} bytes", fs::file_size(file)));
 }
 
 // Some network file systems have none. SQLite would wait for one, in vain.
@@ -138,7 +140,8 @@ void RefuseForeignDatabase(sqlite3* db, const fs::path& file) {
   Statement tables(db, "SELECT COUNT(*), COUNT(CASE WHEN name = 'campaign' THEN 1 END) FROM sqlite_master");
   tables.Step();
   if (tables.Integer(0) > 0 && tables.Integer(1) == 0) {
-    throw InputError(fmt::format("{}: is no store of stiction but another database", file.string()));
+    throw InputError(fmt::format(
+        "{}: found another database, expected a store: a file that stiction search writes", file.string()));
   }
 }
 
@@ -162,7 +165,9 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   Execute("PRAGMA journal_mode = WAL");
   Execute("PRAGMA synchronous = NORMAL");
   const auto stored = ReadIdentity();
-  if (!stored) throw InputError(fmt::format("{}: is no store of stiction", file.string()));
+  if (!stored)
+    throw InputError(fmt::format(
+        "{}: found no campaign in it, expected a store: a file that stiction search writes", file.string()));
   identity_ = *stored;
   if (*stored == identity) {
     RequireSound();
@@ -238,7 +243,9 @@ Store Store::Snapshot(sqlite3* db, const fs::path& file) {
   store.Execute("PRAGMA writable_schema = ON");  // reads a file that ends too early, too, as far as it goes
   store.Execute("BEGIN");
   const auto identity = store.ReadIdentity();
-  if (!identity) throw InputError(fmt::format("{}: is no store of stiction", file.string()));
+  if (!identity)
+    throw InputError(fmt::format(
+        "{}: found no campaign in it, expected a store: a file that stiction search writes", file.string()));
   store.identity_ = *identity;
   return store;
 }

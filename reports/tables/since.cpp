@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "corpus/input_error.h"
 #include "corpus/input_file.h"
 
 namespace stiction {
@@ -20,8 +21,19 @@ std::string_view Since::ChangeOf(const Discovery& discovery) const {
 }
 
 Since ReadSince(const std::filesystem::path& report) {
-  const std::filesystem::path file = std::filesystem::is_directory(report) ? report / "findings.csv" : report;
-  const CsvReader rows(ReadText(file), file.string(), "findings.csv of a report");
+  const bool is_folder = std::filesystem::is_directory(report);
+  const std::filesystem::path file = is_folder ? report / "findings.csv" : report;
+  const auto refuse = [&report](const char* found) {
+    throw InputError(
+        fmt::format("--since: found {}, {}; expected the folder of an earlier report, which stiction report "
+                    "STORE -o FOLDER writes",
+                    report.string(), found));
+  };
+  if (!std::filesystem::exists(report)) refuse("which is not there");
+  if (is_folder && !std::filesystem::exists(file)) refuse("a folder without findings.csv");
+  const std::string text = ReadText(file);
+  if (text.starts_with("SQLite format 3")) refuse("a store");
+  const CsvReader rows(text, file.string(), "findings.csv of a report");
   for (const char* column : {"signature", "count", "state"})
     rows.IndexOf(column);  // also where there is no row
   Since since;

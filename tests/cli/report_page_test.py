@@ -283,7 +283,11 @@ class Page(cli.TestCase):
 
     def test_an_earlier_report_that_is_none_is_refused(self):
         report = "report", self.store, "-o", self.folder / "out", "--since"
-        self.refuses(*report, self.folder / "nowhere", says="nowhere")
+        expected = "expected the folder of an earlier report, which stiction report STORE -o FOLDER writes"
+        for path, found in ((self.folder / "nowhere", "which is not there"), (self.store, "a store"),
+                            (self.folder, "a folder without findings.csv")):
+            self.refuses(*report, path, says=f"--since: found {path}, {found}; {expected}")
+        self.refuses("status", self.report, says=f"{self.report}: found a report, which was made of a store, expected a store")
         self.refuses(*report, self.file("x.csv", "a,b\r\n"),
                      says="x.csv:1: found no column signature, expected findings.csv of a report")
         self.assertFalse((self.folder / "out").exists())

@@ -217,7 +217,7 @@ int fcntl(int file, int command, ...) __attribute__((alias("fcntl64")));
             for arguments in (("search", *CAMPAIGN, "--store", file), ("status", file),
                               ("report", file, "-o", self.folder / "report"),
                               ("merge", file, self.search(self.folder / "s.store"))):
-                self.refuses(*arguments, says=[file, "is no store of stiction"], timeout=20)
+                self.refuses(*arguments, says=[file, "expected a store: a file that stiction search writes"], timeout=20)
                 self.assertEqual(file.read_bytes(), content)
         os.mkfifo(self.folder / "pipe")
         self.refuses("status", self.folder / "pipe", says="pipe", timeout=20)
