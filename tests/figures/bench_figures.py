@@ -81,7 +81,7 @@ def space(program):
 
 def space_loops(program):
     """With seeds that nothing was tuned on."""
-    return "\n\n".join(program.study("space-loops", "--seeds", 31, 32, 33, "--problems", program.size(5000)))
+    return "\n\n".join(program.study("space-loops", "--seeds", 31, 32, 33, 34, "--problems", program.size(20_000)))
 
 
 def space_solved(program):
