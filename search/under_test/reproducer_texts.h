@@ -91,17 +91,11 @@ inline constexpr const char* kSolveWithSiconosLemke = R"(static int solve(double
   return info == 0;
 }
 )";
-inline constexpr const char* kIncludesOfSiconosFriction = R"(#include <stdlib.h>
-#include <FrictionContactProblem.h>
-#include <Friction_cst.h>
-#include <NonSmoothDrivers.h>
-#include <NumericsMatrix.h>
-#include <SolverOptions.h>
-)";
+inline constexpr const char* kIncludesOfSiconosFriction =
+    "#include <NonSmoothDrivers.h>\n#include <fc3d_Solvers.h>\n";
 inline constexpr const char* kSolveWithSiconosFriction =
     R"(static int solve(double* f) { /* a frictionless contact: mu = 0, and tangents that are coupled with nothing */
-  enum { N = CONTACTS * DIMENSION }; int at[ROWS];
-  double m[N * N] = {0}, q[N] = {0}, forces[N] = {0}, velocities[N] = {0};
+  enum { N = CONTACTS * DIMENSION }; int at[ROWS]; double m[N * N] = {0}, q[N] = {0}, forces[N] = {0}, velocities[N] = {0};
   for (int i = 0, row = 0; i < N; ++i)
     if (i % DIMENSION == 0 || kinds[i / DIMENSION] == 2) q[i] = b[row], at[row++] = i; else m[i * N + i] = 1;
   for (int i = 0; i < ROWS * ROWS; ++i) m[at[i % ROWS] * N + at[i / ROWS]] = A[i]; /* column after column */
@@ -151,10 +145,9 @@ inline constexpr const char* kRoundInC = R"(
       const double slip = hypot(a[i], a[i + 1]), askew = hypot(f[i] + hi * a[i] / slip, f[i + 1] + hi * a[i + 1] / slip);
       miss(i, (hypot(f[i], f[i + 1]) - hi) / force[i], "is beyond the limit of friction");
       miss(i, fmin(askew / force[i], slip / acts[i]), "slips, and friction is not all against it");
-      ++i; continue;
-    })";
-inline constexpr const char* kJudgeInC = R"(static double worst = @ACCURACY@; /* what it states */
-static char said[200];
+      ++i; continue; })";
+inline constexpr const char* kJudgeInC =
+    R"(static double worst = @ACCURACY@; /* what it states */ static char said[200];
 static void miss(int row, double by, const char* what) {
   if (by > worst) worst = by, snprintf(said, sizeof said, "row %d %s, by %.3g of what acts there", row, what, by);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a solver under test is judged by. What becomes of real ones: tests/cli/under_test_test.py.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +15,7 @@
 #include "corpus/rounded.h"
 #include "search/campaign.h"
 #include "search/under_test/judge_forces.h"
+#include "search/under_test/reproducer.h"
 #include "search/under_test/simple_scene.h"
 #include "search/under_test/solver_process.h"
 #include "search/units/regenerate.h"
@@ -181,6 +185,64 @@ TEST_CASE("under test: a solution is known of the laws of the plane, and of fixe
   CHECK(NearSolution(space).has_value());
   CHECK_FALSE(SolutionUnder(SolverLaw::kCoulomb, space).has_value());
   CHECK(SolutionUnder(SolverLaw::kFrictionless, PosedFor(SolverLaw::kFrictionless, space)).has_value());
+}
+
+namespace {
+
+// Of two contacts with friction before one without, so that A takes as many lines as any: A = diag(1, ...,
+// rows), b = -1.
+Finding FoundBy(std::string_view kind, int dimension, bool is_library) {
+  ProblemFile file;
+  file.problem.dimension = dimension;
+  file.problem.contacts.assign(3, {ContactKind::kStatic, Rational(1, 2), {}});
+  file.problem.contacts[2] = {ContactKind::kFrictionless, 0, {}};
+  const int rows = 2 * dimension + 1;
+  file.problem.A = ExactProblem::Matrix::Zero(rows, rows);
+  for (int i = 0; i < rows; ++i) file.problem.A(i, i) = i + 1;
+  file.problem.b = ExactProblem::Vector::Constant(rows, Rational(-1));
+  Finding finding;
+  finding.kind = kind;
+  finding.signature = fmt::format("{}-3c", kind);
+  finding.problem = Print(file);
+  finding.facts = fmt::format(R"({{"library": {}, "found": {{"kind": "{}", "what": ""}}}})", is_library, kind);
+  return finding;
+}
+
+bool HasLaw(std::string_view package, SolverLaw law) {
+  if (package == "c" || package == "python" || law == SolverLaw::kFrictionless) return true;
+  return law == (package == "siconos" ? SolverLaw::kCoulomb : SolverLaw::kFindex);
+}
+
+}  // namespace
+
+TEST_CASE("under test: a finding of any kind, law and dimension is a program of at most 60 lines") {
+  constexpr SolverLaw kLaws[] = {SolverLaw::kFrictionless, SolverLaw::kBox, SolverLaw::kFindex,
+                                 SolverLaw::kPyramid, SolverLaw::kCoulomb};
+  int programs = 0;
+  for (const SolverLaw law : kLaws)
+    for (const std::string_view name : kReproducerNames)
+      for (const int dimension : {2, 3})
+        for (const bool is_library : {true, false})
+          for (const std::string_view kind :
+               {"crash", "hang", "leak", "not-finite", "silent-wrong", "refused-solvable"})
+            for (const std::string_view solver : {"dantzig", "lemke", "nsgs", "nsn-ac"}) {
+              if (name == "c" && !is_library) continue;
+              CAPTURE(kSolverLawNames[static_cast<std::size_t>(law)], name, dimension, is_library, kind,
+                      solver);
+              const SolverUnderTest about = {std::string(solver), "1", law, "1e-06"};
+              const Finding finding = FoundBy(kind, dimension, is_library);
+              const auto write = [&] { return ReproducerOf(finding, about, name, "shown.c"); };
+              if (!HasLaw(name, law)) {
+                CHECK_THROWS_WITH(write(), Catch::Contains("c and python have all"));
+                continue;
+              }
+              const std::string text = write();
+              CHECK(std::ranges::count(text, '\n') <= 60);
+              CHECK(text.find('@') == text.npos);  // what is not filled in
+              CHECK(text.find(finding.signature) < text.find("shown"));
+              ++programs;
+            }
+  CHECK(programs > 1000);
 }
 
 TEST_CASE("under test: a scene is made simpler while the solver fails alike on its problem") {
