@@ -1,0 +1,39 @@
+/* refused-solvable-3c: dart-frictionless 6.12.1 gives up a problem that has a solution.
+ *     g++ -x c++ dart-frictionless-refused-solvable-3c.cc -ldart-external-odelcpsolver -o dart-frictionless-refused-solvable-3c && ./dart-frictionless-refused-solvable-3c */
+#include <dart/external/odelcpsolver/error.h>
+#include <dart/external/odelcpsolver/lcp.h>
+#include <cstdarg>
+#include <vector>
+#include <math.h>
+#include <stdio.h>
+enum { ROWS = 3, CONTACTS = 3, DIMENSION = 2 };
+static const double A[] = {
+    25, -1, -7,
+    -1, 2, 0,
+    -7, 0, 2};
+static const double b[] = {94, 15, -29};
+static const double low[] = {0, 0, 0}, high[] = {INFINITY, INFINITY, INFINITY};
+/* exact, and verified */ static const double right[] = {15., 0., 67.};
+static void complain(int, const char* message, va_list values) { throw (vprintf(message, values), puts(""), 0); }
+static int solve(double* f) {
+  const int stride = ROWS > 1 ? ((ROWS - 1) | 3) + 1 : ROWS;
+  std::vector<double> m(ROWS * stride), minus_b(b, b + ROWS), w(ROWS), lo(low, low + ROWS), hi(high, high + ROWS);
+  for (double& x : minus_b) x = -x;
+  for (int i = 0; i < ROWS * ROWS; ++i) m[i / ROWS * stride + i % ROWS] = A[i];
+  dart::external::ode::dSetMessageHandler(complain), dart::external::ode::dSetDebugHandler(complain);
+  try {
+    return dart::external::ode::dSolveLCP(ROWS, m.data(), f, minus_b.data(), w.data(), 0, lo.data(), hi.data(), nullptr);
+  } catch (int) { return 0; }
+}
+int main(void) {
+  double f[ROWS] = {0}, a[ROWS];
+  const int solved = solve(f);
+  printf("it %s\nrow %24s %24s %24s\n", solved ? "calls this solved:" : "gives up:", "f", "a = A f + b", "right f");
+  for (int i = 0; i < ROWS; ++i) {
+    long double sum = b[i];
+    for (int j = 0; j < ROWS; ++j) sum += (long double)A[i * ROWS + j] * f[j];
+    printf("%3d %24.17g %24.17g %24.17g\n", i, f[i], a[i] = (double)sum, right[i]);
+  }
+  printf(solved ? "not seen here: it gives up\n" : "WRONG: it gives up, and there are right forces\n");
+  return !solved;
+}
