@@ -19,7 +19,7 @@ inline constexpr int kAlgorithmVersion = 1;
 inline constexpr int kCountsVersion = 5;
 
 // Of a search that tests a solver: raised with these, and with what its answers are judged by.
-inline constexpr int kJudgeVersion = kCountsVersion + 2;
+inline constexpr int kJudgeVersion = kCountsVersion + 3;
 
 }  // namespace stiction
 

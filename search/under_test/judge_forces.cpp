@@ -145,7 +145,8 @@ ExactProblem ExactOf(const ContactProblem<double>& problem) {
 namespace {
 
 // What forces of idle groups are, in units of the whole problem; they are set to zero where that is within the
-// accuracy. Nothing where no force acts on any contact.
+// accuracy. Nothing where no force acts on any contact. Where A_ii = 0 a force does no work, has the unit of
+// the largest force, and is taken for itself, for any may be right.
 Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accuracy, Eigen::VectorXd& f) {
   Groups groups;
   groups.Find(posed);
@@ -157,14 +158,22 @@ Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accura
   const Rational given = abs(forces.dot(problem.b)), done = abs(forces.dot(problem.A * forces));
   const Rational work = std::min(given, done);
   if (work == 0) return 0;
-  Rational largest = 0;  // squared
-  for (int i = 0; i < posed.rows(); ++i)
-    if (idle[groups.OfRow(i)])
-      largest = std::max<Rational>(largest, forces[i] * forces[i] * problem.A(i, i) / work);
-  if (largest > accuracy * accuracy) return 0;
+  Rational most = 0, largest = 0, workless = 0;  // squared
+  for (const Rational& force : forces) most = std::max<Rational>(most, force * force);
+  for (int i = 0; i < posed.rows(); ++i) {
+    if (!idle[groups.OfRow(i)]) continue;
+    const Rational square = forces[i] * forces[i];
+    if (posed.A(i, i) > 0) {
+      largest = std::max<Rational>(largest, square * problem.A(i, i) / work);
+    } else if (square <= accuracy * accuracy * most) {
+      workless = std::max<Rational>(workless, square / most);
+      f[i] = 0;
+    }
+  }
+  if (largest > accuracy * accuracy) return SquareRoot<Rational>::Of(workless);
   for (int i = 0; i < posed.rows(); ++i)
     if (idle[groups.OfRow(i)] && posed.A(i, i) > 0) f[i] = 0;
-  return SquareRoot<Rational>::Of(largest);
+  return SquareRoot<Rational>::Of(std::max(largest, workless));
 }
 
 JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,

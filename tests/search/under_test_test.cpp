@@ -120,6 +120,16 @@ TEST_CASE("under test: rounding at a contact on which nothing acts is held to wh
   problem.A(0, 0) *= 1e12, problem.A(0, 2) = problem.A(2, 0) = 1e6;
   CHECK(judged(0.9e-12 * unit, 0).miss == "");
   CHECK(judged(1.1e-12 * unit, 0).miss != "");
+  // A force that moves nothing has the unit of the largest.
+  const double stiff = problem.A(0, 0);
+  problem.A(0, 0) = problem.A(0, 2) = problem.A(2, 0) = 0;
+  CHECK(judged(-0.9e-6 * 0.5, 0).miss == "");
+  CHECK(judged(-0.9e-6 * 0.5, 0).error == Approx(0.9e-6));
+  CHECK(judged(-1.1e-6 * 0.5, 0).miss == "pulls");
+  CHECK(judged(-1e6, 0).miss == "pulls");
+  CHECK(judged(1e6, -1e-16).miss == "");
+  CHECK(judged(-1e-16, 1e-5).miss == "presses-and-separates");
+  problem.A(0, 0) = stiff, problem.A(0, 2) = problem.A(2, 0) = 1e6;
   // What is loaded, by however little, has a unit of its own.
   problem.b[0] = -1e-20;
   CHECK(judged(1e-16, 0).miss != "");
