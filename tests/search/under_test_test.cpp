@@ -82,6 +82,38 @@ TEST_CASE("under test: laws part where the normal force is not that of the norma
   CHECK(MissOf(problem, SolverLaw::kCoulomb, 1.5, -1) == "slips-below-limit");
   const auto judged = JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), Eigen::Vector2d(1.5, -1));
   CHECK(judged.misses_coulomb);
+  // Of what is wrong by its own law, nothing is said of another.
+  const Eigen::Vector2d wrong(0.25, -0.25);
+  CHECK_FALSE(JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), wrong).misses_coulomb);
+}
+
+TEST_CASE("under test: friction at its limit in space that is not against the slip is askew") {
+  ContactProblem<double> problem;
+  problem.dimension = 3;
+  problem.contacts = {{ContactKind::kStatic, 0.5, {}}};
+  problem.A = Eigen::Matrix3d::Identity();
+  problem.b = Eigen::Vector3d(-1, 2, 0);
+  const auto miss = [&problem](double normal, double one, double other) {
+    return JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), Eigen::Vector3d(normal, one, other))
+        .miss;
+  };
+  CHECK(miss(1, -0.5, 0) == "");
+  CHECK(miss(1, 0, -0.5) == "friction-askew");
+  CHECK(miss(1, -0.6, 0) == "friction-beyond-limit");
+}
+
+TEST_CASE("under test: friction where nothing acts along the contact is held to what its normal bears") {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}, {ContactKind::kFrictionless, 0, {}}};
+  problem.A = Eigen::Matrix3d::Identity();
+  problem.A(0, 2) = problem.A(2, 0) = -0.5;
+  problem.b = Eigen::Vector3d(0, 0, -1.5);  // f = (1, 0, 2); the fixed bound is 0, since b is 0 there
+  const auto miss = [&problem](double friction) {
+    return JudgeForces(problem, SolverLaw::kBox, Rational(1, 1000000), Eigen::Vector3d(1, friction, 2)).miss;
+  };
+  CHECK(miss(0) == "");
+  CHECK(miss(1e-12) == "");
+  CHECK(miss(1e-5) == "friction-beyond-limit");
 }
 
 TEST_CASE("under test: bounds of findex that are not unique leave an answer unjudged") {
@@ -141,6 +173,26 @@ TEST_CASE("under test: rounding at a contact on which nothing acts is held to wh
 
 namespace {
 
+// A program in Python; `loop` is what it does with each line.
+SolverProcess InPython(const testing::Scratch& folder, const std::string& loop,
+                       const std::string& version = "'1'", const std::string& accuracy = "1e-6",
+                       const std::string& law = "frictionless") {
+  const std::filesystem::path file = folder / "solver.py";
+  std::ofstream(file) << "#!/usr/bin/env python3\nimport json, os, sys\n"
+                      << "print(json.dumps(dict(protocol=1, solver='x', law='" << law
+                      << "', version=" << version << ", accuracy=" << accuracy
+                      << ")), flush=True)\nkept = []\nfor line in sys.stdin: " << loop << "\n";
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  return SolverProcess({file.string()});
+}
+
+ContactProblem<double> Idle() {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kFrictionless, 0, {}}};
+  problem.A = problem.b = Eigen::MatrixXd::Zero(1, 1);
+  return problem;
+}
+
 // A program that answers f = 0; its first process makes a file and sleeps instead, or all of them do.
 std::filesystem::path Sleeper(const testing::Scratch& folder, bool for_ever) {
   const std::filesystem::path file = folder / "sleeper.sh", woken = folder / "woken";
@@ -157,9 +209,7 @@ std::filesystem::path Sleeper(const testing::Scratch& folder, bool for_ever) {
 }  // namespace
 
 TEST_CASE("under test: what waits is asked once more before it is said to hang") {
-  ContactProblem<double> problem;
-  problem.contacts = {{ContactKind::kFrictionless, 0, {}}};
-  problem.A = problem.b = Eigen::MatrixXd::Zero(1, 1);
+  const ContactProblem<double> problem = Idle();
   constexpr double kSeconds = 0.01;  // 0.6 on the clock
   for (const bool for_ever : {false, true}) {
     const testing::Scratch folder;
@@ -167,6 +217,64 @@ TEST_CASE("under test: what waits is asked once more before it is said to hang")
     const SolverReply reply = process.Solve(problem, kSeconds);
     CHECK((reply.end == SolverEnd::kHung) == for_ever);
     CHECK(reply.how == (for_ever ? kAsleep : ""));
+  }
+}
+
+TEST_CASE("under test: a library runs in a process of this program, whatever the version behind its name") {
+  CHECK(SolverCommand("/a/mine.so").size() == 3);
+  CHECK(SolverCommand("/a/mine.so.1").size() == 3);
+  CHECK(SolverCommand("/a/mine.so.d/mine.py") == std::vector<std::string>{"/a/mine.so.d/mine.py"});
+}
+
+TEST_CASE("under test: what lacks forces or has too many is no answer, and a lack of numbers is one") {
+  const testing::Scratch folder;
+  const auto reply = [&folder](const std::string& said) {
+    return InPython(folder, "print('" + said + "', flush=True)").Solve(Idle(), 10);
+  };
+  CHECK(reply(R"({"solved": true, "f": [0]})").end == SolverEnd::kAnswered);
+  CHECK(reply(R"({"solved": false})").end == SolverEnd::kAnswered);
+  CHECK(std::isnan(reply(R"({"solved": true, "f": [-Infinity]})").f[0]));
+  for (const char* const said :
+       {R"({"solved": true})", R"({"solved": true, "f": [0, 0]})", R"({"solved": true, "f": []})", "no"}) {
+    CAPTURE(said);
+    CHECK(reply(said).how == "garbled");
+  }
+}
+
+TEST_CASE("under test: what ends after it took most of its memory is out of it") {
+  const testing::Scratch folder;
+  const std::string answers = "print('{\"solved\": false}', flush=True)";
+  auto greedy = InPython(folder, "os.close(2) if kept else 0; kept.append(bytearray(300 << 20)); " + answers);
+  CHECK(greedy.Solve(Idle(), 10).end == SolverEnd::kAnswered);
+  CHECK(greedy.Solve(Idle(), 10).how == "out-of-memory");
+  CHECK(InPython(folder, "sys.exit(1)").Solve(Idle(), 10).how == "exit-1");
+}
+
+TEST_CASE("under test: a solver is the same as long as it is tested, and states an accuracy") {
+  const testing::Scratch folder;
+  auto other = InPython(folder, "sys.exit(1)", "str(os.getpid())");
+  CHECK(other.Solve(Idle(), 10).how == "exit-1");
+  CHECK_THROWS_WITH(other.Solve(Idle(), 10), Catch::Contains("found another solver than before"));
+  auto same = InPython(folder, "sys.exit(1)");
+  CHECK(same.Solve(Idle(), 10).how == "exit-1");
+  CHECK(same.Solve(Idle(), 10).how == "exit-1");
+  for (const char* const accuracy : {"0", "-1", "'1'"})
+    CHECK_THROWS_WITH(InPython(folder, "pass", "'1'", accuracy), Catch::Contains("a number above 0"));
+}
+
+TEST_CASE("under test: fixed bounds are none where no force moves the contact") {
+  const std::vector<double> bounds = {0.5 * 3 / 2, 0};
+  CHECK(FixedBounds(OneContact(0.5, {2, 3}, {-3, 1}))[0] == bounds[0]);
+  CHECK(FixedBounds(OneContact(0.5, {0, 3}, {-3, 1}))[0] == bounds[1]);
+  // A program is told them under the law of boxes alone.
+  const testing::Scratch folder;
+  for (const char* const law : {"box", "pyramid"}) {
+    auto echo = InPython(
+        folder, "print(json.dumps(dict(solved=True, f=json.loads(line).get('bounds', [0]) + [0])), flush=True)",
+        "'1'", "1e-6", law);
+    const SolverReply reply = echo.Solve(OneContact(0.5, {2, 3}, {-3, 1}), 10);
+    REQUIRE(reply.end == SolverEnd::kAnswered);
+    CHECK(reply.f[0] == (echo.about().law == SolverLaw::kBox ? bounds[0] : 0));
   }
 }
 
@@ -253,6 +361,29 @@ TEST_CASE("under test: a finding of any kind, law and dimension is a program of 
               ++programs;
             }
   CHECK(programs > 1000);
+}
+
+TEST_CASE("under test: a program has the minimized problem, and the bounds and units that its law gives") {
+  ProblemFile file;
+  file.problem.contacts = {{ContactKind::kStatic, Rational(1, 2), {}}, {ContactKind::kBilateral, 0, {}}};
+  file.problem.A = ExactProblem::Matrix::Identity(3, 3);
+  file.problem.b = ExactProblem::Vector{{Rational(-4), Rational(0), Rational(1)}};
+  Finding finding = FoundBy("silent-wrong", 2, true);
+  finding.minimized = Print(file);
+  finding.facts = R"({"library": true, "found": {"what": "pulls"}, "minimized": {"what": "moves-inward"}})";
+  const auto text = [&finding](SolverLaw law, std::string_view name = "python", const char* to = "shown.py") {
+    return ReproducerOf(finding, {"x", "1", law, "1e-06"}, name, to);
+  };
+  using Catch::Contains;
+  const std::string coulomb = text(SolverLaw::kCoulomb);
+  CHECK_THAT(coulomb,
+             Contains("B = [-4, 0, 1]\nLOW = [0, -0.5, -math.inf]\nHIGH = [math.inf, 0.5, math.inf]\n"));
+  CHECK_THAT(coulomb, Contains("FORCE = [8, 4, 2]"));  // friction: half of what acts at the normal
+  CHECK_THAT(coulomb, Contains("a contact moves inward") && !Contains("a contact pulls"));
+  CHECK_THAT(text(SolverLaw::kBox), Contains("LOW = [0, -2, "));  // mu abs(b) / A
+  CHECK_THAT(text(SolverLaw::kCoulomb, "c", "a.b.c"), Contains(" -o a.b "));
+  CHECK_THAT(text(SolverLaw::kCoulomb, "c", ".c"), Contains(" -o .c-program "));
+  CHECK_THAT(text(SolverLaw::kCoulomb, "c", "shown"), Contains(" -o shown-program "));
 }
 
 TEST_CASE("under test: a scene is made simpler while the solver fails alike on its problem") {
