@@ -714,6 +714,8 @@ FALSE += [
     ("form: a problem with rows for another contact", altered(problem=problem([1], [[1]], [0]))),
     ("form: a problem with a slip that is no unit",
      altered(problem=problem([("1", ["1", "1"])], UNIT, [0, 0, 0], 3))),
+    *((f"form: entries {what}", altered(problem={**smooth(IDENTITY, [0, 0]), "A": {"size": 2, "entries": entries}}))
+      for what, entries in (("with one twice", [[1, 0, "1"], [1, 0, "1"]]), ("above the diagonal alone", [[0, 1, "1"]]))),
 ]
 
 if __name__ == "__main__":
