@@ -293,6 +293,12 @@ def refutations(what, A, b, **y):
          *((names[mode], [value[0], -value[1]]) for mode, value in y.items()))
 
 
+for way in (1, -1):
+    NARROW, first, last = problem([1], [[1, -way], [-way, 1]], [-1, 0]), *("slip+", "slip-")[::way]
+    none(true, f"a wedge that no force opens, slip {way}", NARROW, ("break", [1, 0]), ("stick", [1, way]), (first, [1, way]),
+         (last, [1, 0]))
+    none(false, f"a wedge, the slips exchanged, slip {way}", NARROW, ("break", [1, 0]), ("stick", [1, way]), (last, [1, way]),
+         (first, [1, 0]))
 refutations("break with yF /= 0", NOTHING, [1, 1], lift=[0, -1], stick=[-1, 0], plus=[-1, 0], minus=[-1, 0])
 refutations("stick with gN > 0", IDENTITY, [-1, 0], lift=[1, 0], stick=[1, 0], plus=[1, 1], minus=[1, -1])
 refutations("stick with mu abs(gF) > -gN", IDENTITY, [-1, Fraction(-1, 2)],
