@@ -32,6 +32,7 @@ false("not-symmetric", "an entry of the diagonal", ASYMMETRIC, i=1, j=1)
 false("not-symmetric", "no such row", ASYMMETRIC, i=3, j=1)
 false("not-symmetric", "no such column", ASYMMETRIC, i=1, j=3)
 false("not-symmetric", "a negative index", ASYMMETRIC, i=-1, j=2)
+false("not-symmetric", "a negative index, from the end of one that differs", ASYMMETRIC, i=-2, j=2)
 false("not-symmetric", "of a symmetric matrix", smooth([[1, 2], [2, 1]], [0, 0]), i=0, j=1)
 
 # --- psd, not-psd ------------------------------------------------------------------
@@ -711,11 +712,17 @@ FALSE += [
     ("form: another format", altered(format="stiction-problem")),
     ("form: another version", altered(version=2)),
     ("form: a version that is no integer", altered(version=1.0)),
+    ("form: a version that is true", altered(version=True)),
     ("form: an unknown claim", altered(claim="symmetrical")),
     ("form: a key too many", altered(note="true")),
     ("form: a witness with a key too many", altered(witness={"x": ["1"]})),
     ("form: a problem with a name", altered(problem={**smooth([[1]], [0]), "name": "one"})),
     ("form: a problem with numbers that are no texts", altered(problem={**smooth([[1]], [0]), "b": [0]})),
+    *((f"form: a problem with digits of another alphabet, {number!r}", altered(problem=smooth([[number]], [0])))
+      for number in ("\u0661", "1/\u0662", "\u0661/2")),
+    ("form: a problem with a denominator of zero", altered(problem=smooth([["1/0"]], [0]))),
+    ("form: a problem with friction at a frictionless contact",
+     altered(problem={**smooth([[1]], [0]), "contacts": [{"kind": "frictionless", "mu": "1"}]})),
     ("form: a problem with a negative mu", altered(problem=problem([-1], IDENTITY, [0, 0]))),
     ("form: a problem with rows for another contact", altered(problem=problem([1], [[1]], [0]))),
     ("form: a problem with a slip that is no unit",
