@@ -28,15 +28,19 @@ FrictionLaw LawNamed(const std::string& law, FrictionLaw usual, int dimension, c
 Arithmetic ArithmeticNamed(const Wanted& wanted) {
   const auto arithmetic = FindArithmetic(wanted.arithmetic);
   if (!arithmetic)
-    throw InputError(fmt::format("{}arithmetic: found {}, expected one that 'stiction methods' lists",
-                                 wanted.dashes, wanted.arithmetic));
+    throw InputError(
+        fmt::format("{}arithmetic: found {}, expected one of {}; 'stiction methods' says which a "
+                    "method has",
+                    wanted.dashes, wanted.arithmetic, fmt::join(kArithmeticNames, ", ")));
   return *arithmetic;
 }
 
 void RequireMethod(const Wanted& wanted) {
-  if (wanted.method != kAutomatic && FindMethodFacts(wanted.method) == nullptr)
-    throw InputError(fmt::format("{}method: found {}, expected one that 'stiction methods' lists",
-                                 wanted.dashes, wanted.method));
+  if (wanted.method == kAutomatic || FindMethodFacts(wanted.method) != nullptr) return;
+  std::vector<std::string_view> names = {kAutomatic};
+  for (const MethodFacts& facts : AllMethods()) names.push_back(facts.name);
+  throw InputError(fmt::format("{}method: found {}, expected one of {}", wanted.dashes, wanted.method,
+                               fmt::join(names, ", ")));
 }
 
 void RequirePathMethod(const Wanted& wanted) {

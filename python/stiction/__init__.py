@@ -15,6 +15,7 @@ except ImportError as error:
         raise  # it is there, and cannot be loaded: by another interpreter, or without a library
     raise ImportError(f"stiction: found no compiled module in {_Path(__file__).parent}, expected a build: "
                       "'./run python' makes one and starts Python, 'pip install .' installs one") from None
+from . import plots  # which imports nothing of others before it draws
 from ._campaigns import Best, Finding, Store, draw, interval, search
 from ._explained import Explanation, explain, methods, policies
 from ._many import Answers, replay_many, solve_many
@@ -26,7 +27,7 @@ from ._stiction import __version__
 __all__ = ["Answer", "Answers", "Best", "Certificate", "Explanation", "Finding", "Pivot", "Problem", "Replay",
            "Simulation", "Store", "assemble", "certify", "check", "draw", "ends", "explain", "interval", "load",
            "methods", "policies", "replay", "replay_many", "search", "simulate", "solve", "solve_all",
-           "solve_many"]  # and __version__; plots are in stiction.plots
+           "solve_many"]  # and __version__, and the module plots
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # as which they are named where they are shown

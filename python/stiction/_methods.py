@@ -200,8 +200,9 @@ def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: 
     After `seconds`, if they are not 0, and after Ctrl-C, the run ends where its method next looks: with an answer
     that is undecided, or KeyboardInterrupt.
     """
+    given = compiled(problem, "solve")
     require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
-    said = _stiction.solve(compiled(problem, "solve"), method, arithmetic, policy, law, integer("sides", sides),
+    said = _stiction.solve(given, method, arithmetic, policy, law, integer("sides", sides),
                            real("residual", residual), real("seconds", seconds),
                            chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits,
                                    acceleration_tolerance=acceleration_tolerance, force_tolerance=force_tolerance,
@@ -219,6 +220,8 @@ def solve_all(problems: Sequence[Problem], method: str = "auto", arithmetic: str
     `statistics`. Forces are not kept: `solve` gives those of one. Ctrl-C as in `solve`.
     """
     require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
+    if isinstance(problems, Problem):
+        raise TypeError("solve_all: problems: found one stiction.Problem, expected a sequence of them; solve takes one")
     outcomes, seconds, counters = _stiction.solve_all(
         [compiled(problem, "solve_all") for problem in problems], method, arithmetic, policy, law,
         integer("sides", sides), chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
@@ -230,9 +233,10 @@ def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, a
            sides: int = 8, max_drives: int | None = None, max_pivots: int | None = None,
            max_bits: int | None = None) -> Replay:
     """Runs a path method step by step; by default exactly where it is built so. Ctrl-C as in `solve`."""
+    given = compiled(problem, "replay")
     require_text(policy=policy, method=method, arithmetic=arithmetic)
     numbers = chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits)
-    said = _stiction.replay(compiled(problem, "replay"), policy, method, arithmetic, integer("sides", sides), numbers)
+    said = _stiction.replay(given, policy, method, arithmetic, integer("sides", sides), numbers)
     pivots = [Pivot(p.get("drive", 0), _number(p.get("step")), p) for p in said["pivots"]]
     return Replay(said["outcome"], said["start"], said["period"], pivots, said, problem,
                   {"policy": policy, "method": method, "arithmetic": arithmetic, "sides": sides, "numbers": numbers})
@@ -259,17 +263,21 @@ def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *
     None where nothing that was run shows either: within the budgets, which are of runs of a method. Policy '*' is the
     whole planar grid. A law is chosen of the claim 'existence' in space: Coulomb's, unless it is 'baraff'.
     """
+    given = compiled(problem, "certify")
     require_text(claim=claim, policy=policy, law=law)
-    text = _stiction.certify(compiled(problem, "certify"), claim, policy, law,
+    text = _stiction.certify(given, claim, policy, law,
                              chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
     return None if text is None else Certificate(json.loads(text)["claim"], text)
 
 
 def check(problem: Problem, certificate: Certificate | str) -> bool:
     """True of a certificate, or its text, that is right and speaks of this problem; otherwise ValueError, why."""
+    given = compiled(problem, "check")
     text = certificate.text if isinstance(certificate, Certificate) else certificate
-    require_text(certificate=text)
-    accepted, _, reason = _stiction.check(compiled(problem, "check"), text)
+    if not isinstance(text, str):
+        raise TypeError(f"certificate: found {shortened(repr(text))}, expected a stiction.Certificate or its text; "
+                        "certify gives None where it could show neither a claim nor its negation")
+    accepted, _, reason = _stiction.check(given, text)
     if not accepted:
         raise ValueError(reason)
     return True

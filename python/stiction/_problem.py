@@ -69,6 +69,8 @@ class Problem:
                     for x, name in ((A, "A"), (b, "b")))
             if A.ndim != 2 or b.ndim != 1:
                 raise ValueError(f"Problem: found A with {A.ndim} and b with {b.ndim} dimensions, expected 2 and 1")
+            if A.shape == (len(A), len(A)) != (len(b), len(b)):
+                raise ValueError(f"Problem: b: found {len(b)} numbers, expected {len(A)}, one for each row of A")
         row_count = (J.shape[0] if hasattr(J, "shape") else len(J)) if is_factored else len(b)
         if isinstance(kinds, str):
             raise TypeError(f"kinds: found {kinds!r}, expected a sequence of names, one for each contact")
@@ -83,6 +85,12 @@ class Problem:
                 raise ValueError(f"Problem: {of}: found {found}, expected {len(kinds)}, one for each contact")
         for i, kind in enumerate(kinds):
             require_text(**{f"kinds[{i}]": kind})
+        rows = sum(dimension if kind in ("static", "sliding") else 1 for kind in kinds)
+        are_known = set(kinds) <= {"static", "sliding", "frictionless", "bilateral"}
+        if not is_factored and are_known and A.shape != (rows, rows):
+            raise ValueError(f"Problem: A: found {A.shape[0]} x {A.shape[1]}, expected {rows} x {rows}: {len(kinds)} "
+                             f"contacts, as mu or kinds say, of {dimension} rows each where static or sliding, else "
+                             f"of 1, with dimension={dimension}")
         kinds, mu, slips = _read_infinite(kinds, mu, slips, dimension)
         directions = [[] if slip is None else
                       [exact_text(x, f"Problem: slips[{i}]") for x in listed(slip, f"slips[{i}]")]
@@ -224,5 +232,6 @@ def wrapped(compiled_problem: _stiction.Problem) -> Problem:
 
 def compiled(problem: Any, by: str) -> _stiction.Problem:
     if not isinstance(problem, Problem):
-        raise TypeError(f"{by}: problem: found {problem!r}, expected a stiction.Problem")
+        raise TypeError(f"{by}: problem: found {shortened(repr(problem))}, expected a stiction.Problem, as "
+                        "stiction.Problem(A, b, mu) and stiction.load(path) make")
     return problem._problem

@@ -30,9 +30,12 @@ PROBLEMS = [
     ((np.eye(2), [0, 1j], 1), ValueError, r"b\[1\]: found 1j, expected"),
     ((np.eye(2), [0, "1/0"], 1), ValueError, r"b\[1\]: found '1/0', expected"),
     ((np.ma.masked_equal(np.array(A, float), 7), B, 1), ValueError, "A: found an array with masked entries"),
-    ((A, B[:3], [1, 1]), ValueError, "b: found 3, expected 4"),
+    ((A, B[:3], [1, 1]), ValueError, "b: found 3 numbers, expected 4, one for each row of A"),
     ((np.array(A, float)[:, :3], B, 1), ValueError, "A: found 4 x 3, expected 4 x 4"),
     ((A[:3], B, 1), ValueError, "A: found 3 x 4, expected 4 x 4"),
+    ((A, B[:3], 1), ValueError, "b: found 3 numbers, expected 4, one for each row of A"),
+    ((A, B, [1, 1, 1]), ValueError, "A: found 4 x 4, expected 6 x 6: 3 contacts, as mu or kinds say, of 2 rows each"),
+    ((np.eye(6), np.zeros(6), [1, 1]), ValueError, "expected 4 x 4: 2 contacts, .*, with dimension=2$"),
     (([], B, 1), ValueError, "found A with 1 and b with 1 dimensions, expected 2 and 1"),
     (([[1, 2], [3]], [0, 0], 1), ValueError, "found A with 1 and b with 1"),
     ((np.eye(3), np.zeros(3), [1, 1]), ValueError, "A: found 3 x 3, expected 4 x 4"),
@@ -50,9 +53,9 @@ PROBLEMS = [
     ((A, B, 1, None, 2, "p", [None]), ValueError, "slips: found 1, expected 2"),
 ]
 SOLVED = [
-    ({"method": "guess"}, ValueError, "method: found guess, expected one that"),
+    ({"method": "guess"}, ValueError, "method: found guess, expected one of auto, complete, .*lemke"),
     ({"method": 3}, TypeError, "method: found 3, expected text"),
-    ({"arithmetic": "decimal"}, ValueError, "arithmetic: found decimal, expected"),
+    ({"arithmetic": "decimal"}, ValueError, "arithmetic: found decimal, expected one of .*exact"),
     ({"method": "proximal", "arithmetic": "exact"}, ValueError, "proximal.*exact.*not built.*expected one of"),
     ({"policy": "scan=never"}, ValueError, "scan.*found 'never', expected one of lowest"),
     ({"policy": "pace=slow"}, ValueError, "policy: found 'pace=slow', expected"),
@@ -119,8 +122,14 @@ class Refused(unittest.TestCase):
     def test_what_is_no_problem(self):
         for call in (stiction.solve, stiction.replay, stiction.ends, stiction.certify):
             for thing in (str(LOOP), None, np.eye(2)[0]):
-                self.refuses(TypeError, f"{call.__name__}: problem: found .*, expected a stiction.Problem", call, thing)
+                self.refuses(TypeError, f"{call.__name__}: problem: found .*, expected a stiction.Problem, as stiction.Problem.A, b, mu. and "
+                             "stiction.load.path. make", call, thing)
         self.refuses(TypeError, "check: problem: found 1", stiction.check, 1, "{}")
+        self.refuses(TypeError, "^solve: problem: found array", stiction.solve, np.array(A), B, 1)
+        self.refuses(TypeError, "^solve_all: problems: found one stiction.Problem, expected a sequence",
+                     stiction.solve_all, stiction.load(LOOP))
+        self.refuses(TypeError, "certificate: found None, expected a stiction.Certificate or its text; certify gives None",
+                     stiction.check, stiction.load(LOOP), None)
 
     def test_many(self):
         self.refuses(TypeError, "solve_all: problem: found None", stiction.solve_all, [None])
@@ -135,7 +144,7 @@ class Refused(unittest.TestCase):
 
     def test_certificates(self):
         problem = stiction.load(LOOP)
-        self.refuses(TypeError, "certificate: found 3, expected text", stiction.check, problem, 3)
+        self.refuses(TypeError, "certificate: found 3, expected a stiction.Certificate", stiction.check, problem, 3)
         self.refuses(ValueError, "certificate: .*JSON", stiction.check, problem, "{")
         self.refuses(ValueError, "certificate", stiction.check, problem, "{}")
         self.refuses(ValueError, "certificate: .*found 33554433 bytes, expected a certificate of at most 33554432",
