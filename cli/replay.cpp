@@ -164,7 +164,11 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
     if (proved) told += OverIntervalsText(*proved) + "\n";
     if (!expected.empty() && expected != Name(solution.outcome())) told += "expected: " + expected + "\n";
     Tell("{}", told);
-    if (o.step) Tell("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
+    if (o.step) {
+      Tell("\nThe words (numbers in brackets are sections of the paper):\n{}", GlossaryOf(told));
+    } else {
+      Tell("(--step: the problem, all forces, and what the words mean)\n");
+    }
   }
   return ExitOf(solution.outcome(), expected);
 }

@@ -70,15 +70,30 @@ constexpr std::array kWords = {
          "in complete driving: the driven force has come back to zero, and the variable before it is driven "
          "again",
          "solver/complete/complete_driving.md"},
+    Word{"stage",
+         "in complete driving: the pieces on which one variable is driven, until its own condition holds",
+         "solver/complete/complete_driving.md"},
     Word{"piece", "in complete driving: a stretch of the path along which no contact changes its cell",
          "solver/complete/complete_driving.md"},
     Word{"cell, cells",
          "what a contact does: B breaks, S sticks, + and - slip or are about to (friction at its upper, at its "
-         "lower limit), ? not driven yet; in space V and E, corners and edges of a polygon",
+         "lower limit), ? not driven yet, 0 without friction, H held; in space I sticks, V and E are at "
+         "corners and on edges of a polygon",
          "solver/complete/complete_driving.md"},
     Word{"word",
          "the cells of all contacts, one letter each; in the certificate of a run in space, all its steps",
          "solver/complete/complete_driving.md"},
+    Word{
+        "enters, leaves",
+        "in Lemke's method: the variable that grows from zero, and the one that comes down to zero. Of contact "
+        "1, fN1 is the normal force, f+1 and f-1 are friction of either sign, l1 is the size of the slip; "
+        "aN1, a+1, a-1 and m1 are what stands in the condition of each. In space corner k of the polygon has "
+        "fk.1 and ak.1",
+        "solver/lemke/lemke.h"},
+    Word{"z0",
+         "in Lemke's method: added to every condition at first, so that all hold; the method ends when it is "
+         "zero",
+         "solver/lemke/lemke.h"},
     Word{"policy",
          "one reading of the published text: a value for each of its open choices; `paper` is the reference",
          "solver/published/readings.md"},

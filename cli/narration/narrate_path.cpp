@@ -2,6 +2,7 @@
 // Complete driving and Lemke's method, piece by piece.
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "certify/exact/exact.h"
@@ -25,6 +26,22 @@ std::vector<std::string> CellsOf(const std::string& word, bool in_space) {
     }
   }
   return cells;
+}
+
+// "S (sticks)": a cell and what its contact does.
+std::string CellText(const std::string& cell) {
+  constexpr std::array<std::pair<char, const char*>, 9> kDoes = {{{'B', "breaks"},
+                                                                  {'S', "sticks"},
+                                                                  {'I', "sticks"},
+                                                                  {'+', "at its upper limit"},
+                                                                  {'-', "at its lower limit"},
+                                                                  {'V', "at a corner"},
+                                                                  {'E', "on an edge"},
+                                                                  {'0', "without friction"},
+                                                                  {'H', "held"}}};
+  const auto found =
+      std::find_if(kDoes.begin(), kDoes.end(), [&cell](const auto& row) { return row.first == cell.front(); });
+  return found == kDoes.end() ? cell : fmt::format("{} ({})", cell, found->second);
 }
 
 const char* SignText(int sign) { return sign > 0 ? "> 0" : sign < 0 ? "< 0" : "0"; }
@@ -101,7 +118,8 @@ class CompleteNarrator {
     std::string text;
     for (std::size_t i = 0; i < from.size() && i < to.size(); ++i) {
       if (from[i] != to[i])
-        text += fmt::format("{}contact {} from {} to {}", text.empty() ? "" : ", ", i + 1, from[i], to[i]);
+        text += fmt::format("{}contact {} from {} to {}", text.empty() ? "" : ", ", i + 1, CellText(from[i]),
+                            CellText(to[i]));
     }
     return text;
   }

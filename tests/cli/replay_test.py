@@ -71,7 +71,17 @@ class ForPeople(cli.TestCase):
         complete = self.succeeds("replay", file, "--method", "complete", "--step").out
         self.assertIn("is driven", complete)
         words = complete[complete.index("The words"):]
-        self.assertRegex(words, r"(?m)^  cell, cells ")
+        for word in ("stage", "cell, cells"):
+            self.assertRegex(words, rf"(?m)^  {word} ")
+        self.assertIn("contact 1 from B (breaks) to + (at its upper limit); a fold", " ".join(complete.split()))
+        lemke = self.succeeds("replay", file, "--method", "lemke", "--step").out
+        words = " ".join(lemke[lemke.index("The words"):].split())
+        for name in set(re.findall(r"(\S+) (?:enters,|leaves)", lemke)):
+            of_contact_1 = name if name == "z0" else re.sub("[0-9]$", "1", name)
+            self.assertRegex(words, rf" {re.escape(of_contact_1)}[ ,]")
+        for method in ("baraff", "complete", "lemke"):  # a line for each step has letters, and says who explains them
+            short = cli.run("replay", file, "--method", method).out
+            self.assertTrue(short.endswith("(--step: the problem, all forces, and what the words mean)\n"), short)
         self.assertNotRegex(words, r"(?m)^  drive ")
         loop = self.succeeds("replay", SPACE / "cycle-under-both-slips.json", "--step").out
         self.assertLess(loop.index("over intervals, proved"), loop.index("The words"))
