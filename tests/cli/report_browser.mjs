@@ -515,6 +515,25 @@ test('on a phone nothing is cut off, and plots are redrawn for its width', async
   }, {viewport: {width: 360, height: 740}, deviceScaleFactor: 2, isMobile: true, hasTouch: true});
 });
 
+test('A f + b = a of two contacts and numbers of two digits fits a phone', async () => {
+  await opened('small', async page => {
+    const over = [];
+    let seen = 0;
+    for (let k = 0; k < await page.locator('.timeline .state').count(); ++k) {
+      await page.$$eval('.timeline .state', (states, k) => states[k].click(), k);
+      const [wide, room, digits] = await page.$eval('.algebra', box => [
+        box.scrollWidth, box.clientWidth,
+        Math.max(...[...box.querySelectorAll('mn')].map(node => node.textContent.length))
+      ]);
+      if (digits > 2) continue;
+      ++seen;
+      if (wide > room) over.push([k, wide, room]);
+    }
+    assert.ok(seen > 0);
+    assert.deepEqual(over, []);
+  }, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
+});
+
 test('printed, it is light, in pages, with its figures and without controls', async () => {
   await opened('small', async page => {
     const pdf = (await page.pdf({preferCSSPageSize: true, printBackground: true})).toString('latin1');

@@ -94,6 +94,7 @@ test(
 
       await paste(page, {A: '1 2\n3', b: '1 2', mu: '1'});
       assert.equal(await page.innerText('#told'), 'A: found 1 numbers in row 2, expected 2');
+      assert.equal(await words(page), '');  // no answer to another problem
       await paste(page, {A: '[[0.1 0]\n [0 1]]', b: '[-.30 0.]', mu: '1/3'});
       assert.match(await words(page), /1 sticks 3 0/);  // 0.3 / 0.1, of decimals
       await paste(page, {A: '2 0\n0 3', b: '1 2', mu: '-1'});

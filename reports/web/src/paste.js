@@ -162,6 +162,7 @@ async function run() {
   try {
     problem = fileOfPasted(taken());
   } catch (error) {
+    byId('answer').replaceChildren();  // which was another problem's
     byId('told').textContent = error.message;
     return;
   }

@@ -27,8 +27,8 @@ export function equation(data, run, state) {
       element('tbody', {}, ...data.rows.map(row => element('tr', {}, element('th', {scope: 'row'}, row)))));
   const sign = text => element('span', {class: 'sign'}, text);
   const mu = data.problem.contacts.filter(contact => contact.mu !== undefined).map(contact => contact.mu);
-  const part = (label, table) =>
-      element('div', {class: 'part'}, element('span', {class: 'name'}, label), table);
+  const part = (label, table, style = 'part') =>
+      element('div', {class: style}, element('span', {class: 'name'}, label), table);
   return [
     part('', names),
     part('A', matrix(data.problem.A, (i, j) => kept[i] && kept[j])),
@@ -37,7 +37,7 @@ export function equation(data, run, state) {
     part('b', matrix(column(data.problem.b))),
     sign('='),
     part('a', matrix(column(run.a(state)), () => false, 'acceleration')),
-    mu.length === 0 ? null : part('μ', matrix(column(mu))),
+    mu.length === 0 ? null : part('μ', matrix(column(mu)), 'part mu'),
   ].filter(Boolean);
 }
 
