@@ -78,8 +78,9 @@ std::string ErrorOf(const OptionRow& row, const std::string& word) {
     for (const AllowedValue& choice : row.choices) names.push_back(choice.name);
     if (std::find(names.begin(), names.end(), word) == names.end()) {
       const std::string nearest = Nearest(word, names);
-      return fmt::format("found '{}', expected one of {}{}", word, fmt::join(names, ", "),
-                         nearest.empty() ? "" : "; did you mean " + nearest + "?");
+      std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
+      if (word.find(',') != std::string::npos) hint = "; several have blanks between them, not commas";
+      return fmt::format("found '{}', expected one of {}{}", word, fmt::join(names, ", "), hint);
     }
   }
   return row.check ? row.check(word) : "";

@@ -150,9 +150,10 @@ std::string ExistenceText(const StoreTotals& t) {
                                 Counted(a.disagreements, "disagreement")));
   if (a.safety_decided > 0)
     text += Paragraph(
-        fmt::format("{} of {} are safe (all reduced determinants are positive); under apex=suspended the "
+        fmt::format("{} of {} {} safe (all reduced determinants are positive); under apex=suspended the "
                     "published algorithm gave something up in {} of them.",
-                    Grouped(a.safe), Counted(a.safety_decided, "audited problem"), Grouped(a.safe_gave_up)));
+                    Grouped(a.safe), Counted(a.safety_decided, "audited problem"), a.safe == 1 ? "is" : "are",
+                    Grouped(a.safe_gave_up)));
   return text;
 }
 

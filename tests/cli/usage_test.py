@@ -157,6 +157,7 @@ class Usage(cli.TestCase):
             (("search", "--minutes", "0"), ["--minutes: found '0'", "above 0"]),
             (("search", "--problems", "1e3"), ["--problems: found '1e3'", "an integer"]),
             (("search", "--generator", "integer", "--store", out), ["'integer'", "did you mean integers?"]),
+            (("search", "--generator", "integers,psd", "--store", out), ["'integers,psd'", "blanks between them"]),
             (("search", "--contacts", "9", "--store", out), ["found '9'", "from 1 to 8"]),
             (("search", "--mu", "-1", "--problems", "1", "--store", out), ["found '-1'", "p/q"]),
             (("search", "--shard", "2/2", "--problems", "1", "--store", out), ["found '2/2'", "0 <= i < N"]),
