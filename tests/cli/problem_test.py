@@ -271,9 +271,10 @@ class Replay(cli.TestCase):
 
     def test_the_reference_point_as_text(self):
         file = self.file("p.json", cli.REFERENCE)
-        lines = self.succeeds("replay", file, code=1).out.splitlines()
+        *lines, hint = self.succeeds("replay", file, code=1).out.splitlines()
+        self.assertIn("--step", hint)
         self.assertEqual(lines[0], "two-contact-cycle: 2 contacts, policy paper, exact")
-        self.assertEqual(lines[-2], "cycle: the state after 3 drives recurs 4 drives later, for ever")
+        self.assertEqual(lines[-1], "cycle: the state after 3 drives recurs 4 drives later, for ever")
         first, again = [k for k, line in enumerate(lines) if line.startswith("----")]
         self.assertEqual([line.split()[4] for line in lines[first + 1:again]], cli.PERIOD)
         self.assertEqual(again, len(lines) - 2)
