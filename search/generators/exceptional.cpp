@@ -66,7 +66,8 @@ void DrawPart(int contact, const MuChoice& mu, bool first, int beside, Choices& 
     SetForce(contact, q, p * along, p * across, jam.v);
   }
   if (on_boundary && (first || choices.Integer(0, 1) == 1)) {
-    const int s = DrawIn(-2, 2, choices), w = DrawIn(1, 2, choices) * (choices.Integer(0, 1) == 0 ? 1 : -1);
+    const int s = DrawIn(-2, 2, choices), size = DrawIn(1, 2, choices);
+    const int w = choices.Integer(0, 1) == 0 ? size : -size;
     SetForce(contact, jam.scale * q * s + beside * mu.denominator, jam.scale * p * (s * d[0] - w * d[1]),
              jam.scale * p * (s * d[1] + w * d[0]), jam.x);
   } else if (!in_kernel && choices.Integer(0, 1) == 1) {

@@ -80,6 +80,16 @@ Float2 UnitNormal(int p, int q) {
   return {static_cast<float>(2 * p * q) / length, static_cast<float>(p * p - q * q) / length};
 }
 
+struct Range {
+  int low, high;
+};
+
+// q is drawn first: arguments of a call would be drawn in an order of the compiler's choice.
+Float2 DrawNormal(Range of_p, Range of_q, Choices& choices) {
+  const int q = Draw(of_q.low, of_q.high, choices);
+  return UnitNormal(Draw(of_p.low, of_p.high, choices), q);
+}
+
 // ---- Worlds ----------------------------------------------------------------------------------
 
 // Masses 1, 3, 10, ..., up to 10^4 apart.
@@ -169,7 +179,7 @@ void MakePile(int contacts, int spread, SteppedWorld& world, Choices& choices) {
   for (int i = 0; i < discs; ++i) {
     const float r = radius[static_cast<std::size_t>(i)] = Part(8, 64, choices);
     const int below = Draw(kTheFixed, i - 1, choices);
-    const Float2 normal = UnitNormal(Draw(3, 7, choices), Draw(-3, 3, choices));
+    const Float2 normal = DrawNormal({3, 7}, {-3, 3}, choices);
     if (below == kTheFixed) {
       const float x = Part(-256, 256, choices);
       AddTouch(AddBody({x, r}, r * r / 2, spread, world, choices), kTheFixed, {x, 0}, {0, 1}, world);
@@ -181,7 +191,7 @@ void MakePile(int contacts, int spread, SteppedWorld& world, Choices& choices) {
   }
   while (world.contacts < contacts) {
     const int disc = Draw(0, discs - 1, choices);
-    const Float2 normal = UnitNormal(Draw(1, 7, choices), Draw(-7, 7, choices));
+    const Float2 normal = DrawNormal({1, 7}, {-7, 7}, choices);
     const Float2 point = world.body[disc].at - normal * radius[static_cast<std::size_t>(disc)];
     AddTouch(disc, kTheFixed, point, normal, world);
   }
@@ -218,7 +228,7 @@ void MakeRandom(int contacts, int spread, SteppedWorld& world, Choices& choices)
     const int mine = i < bodies ? i : Draw(0, bodies - 1, choices);
     const int other = (mine + Draw(0, bodies - 1, choices)) % bodies;
     const Float2 point = {Part(-128, 128, choices), Part(-128, 128, choices)};
-    const Float2 normal = UnitNormal(Draw(-7, 7, choices), Draw(-7, 7, choices));
+    const Float2 normal = DrawNormal({-7, 7}, {-7, 7}, choices);
     AddTouch(mine, other == mine ? kTheFixed : other, point, normal, world);
   }
 }

@@ -29,7 +29,7 @@ TEST_CASE("lifted equations: the numbers of elimination, where unknowns are free
   for (const int size : {0, 1, 2, 5, 16, 24, 40}) {
     for (const int rank : {0, size / 3, size - 1, size}) {
       if (rank < 0) continue;
-      const ExactMatrix M = DrawnMatrix(random, size, rank) * DrawnMatrix(random, rank, size);
+      const ExactMatrix L = DrawnMatrix(random, size, rank), R = DrawnMatrix(random, rank, size), M = L * R;
       const ExactVector some = DrawnMatrix(random, size, 1), guess = DrawnMatrix(random, size, 1);
       const ExactVector right = M * some;
       const auto lifted = SolveByLifting(M, right, guess), eliminated = SolveEquations(M, right, guess);
@@ -45,11 +45,12 @@ TEST_CASE("lifted equations: the numbers of elimination, where unknowns are free
 TEST_CASE("lifted equations: those that contradict each other have no solution") {
   std::mt19937_64 random(21);
   for (const int size : {1, 3, 20}) {
-    const ExactMatrix M = DrawnMatrix(random, size, size - 1) * DrawnMatrix(random, size - 1, size);
+    ExactMatrix M = DrawnMatrix(random, size, size);
+    M.row(size - 1) = M.topRows(size - 1).colwise().sum();
     ExactVector right = M * DrawnMatrix(random, size, 1);
     const ExactVector none = ExactVector::Zero(size);
     REQUIRE(SolveByLifting(M, right, none));
-    // The last row is a combination of the others, and no longer says the same.
+    // The last row, the sum of the others, no longer says the same.
     right[size - 1] += Rational(1, 1000000007);
     CHECK(!SolveByLifting(M, right, none));
     CHECK(!SolveEquations(M, right, none));
