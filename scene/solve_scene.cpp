@@ -32,11 +32,9 @@ double NoiseOf(const Problem& problem) {
 // The largest error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  const LongVector forces = f.template cast<long double>();
-  LongVector a = Recompute(problem, forces);
-  const double noise = NoiseOf(problem);
-  for (long double& x : a) x = Abs(x) <= noise ? 0 : x;
-  return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
+  GateMeter<double> meter;
+  const Gate gate = GateOf<double>();
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f, gate, meter, NoiseOf(problem)).Largest();
 }
 
 // Errors of a problem with the rows that reduction took out.

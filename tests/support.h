@@ -30,7 +30,7 @@ inline bool Short() {
 // So many, or a quarter of them.
 inline int Few(int count) { return Short() ? count / 4 : count; }
 
-// The largest error of forces: of Coulomb's law, of (21), (22), of the law on polygons.
+// The largest strict error of forces: of Coulomb's law, of (21), (22), of the law on polygons.
 template <class Problem, class Vector>
 auto ErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
   return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
@@ -41,7 +41,8 @@ auto WeakErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
 }
 template <class Problem, class Polygons, class Vector>
 auto PolygonErrorOf(const Problem& problem, const Polygons& polygons, const Vector& f, const Vector& a) {
-  return PolygonErrors(problem, polygons, f, a).Largest();
+  using Scalar = typename Vector::Scalar;
+  return PolygonErrors(problem, polygons, f, a, Scalar(1)).Largest();
 }
 
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }

@@ -380,9 +380,9 @@ struct ContactUnits {
   std::vector<double> force, acceleration;
 };
 
-ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f, const Doubles::Vector& a) {
-  Units<double> of_rows;
-  of_rows.Take(problem, f, a);
+ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f) {
+  LenientUnits<double> of_rows;
+  of_rows.Take(problem, f);
   ContactUnits units;
   int row = 0;
   for (const Contact<double>& contact : problem.contacts) {
@@ -607,7 +607,7 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   const Doubles rounded = InDoubles(problem);
   Doubles::Vector f = ForcesNear(rounded, limits);
   const Doubles::Vector a = rounded.A * f + rounded.b;
-  const ContactUnits units = UnitsOf(rounded, f, a);
+  const ContactUnits units = UnitsOf(rounded, f);
   Layout layout(problem, BehaviorsNear(problem, a, units));
   const Eigen::VectorXd centred = CentredForces(rounded, layout, f, a);
   for (std::size_t k = 0; k < layout.kept.size(); ++k) f[layout.kept[k]] = centred[k];

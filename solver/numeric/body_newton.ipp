@@ -175,7 +175,8 @@ Scalar BodyNewton<Scalar>::Measured() {
   a_ = problem_->A.J() * (problem_->w + problem_->Responses(f_)) + problem_->c;
   told_a_ = a_;
   for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
-  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, units_, Scalar(0));
+  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, meter_,
+                                              WorkingTheta<Scalar>(options_.residual, problem_->rows()));
   return errors.Largest() + std::numeric_limits<Scalar>::epsilon() * errors.amplification;
 }
 

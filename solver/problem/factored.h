@@ -55,6 +55,14 @@ class FactoredMatrix {
     }
   }
 
+  // visit(i, A_ij) for the rows that share a velocity with row j.
+  template <class Visit>
+  void ForEachInColumn(int j, Visit visit) const {
+    const Eigen::SparseVector<Scalar> column = J_ * Eigen::SparseVector<Scalar>(JW_.row(j).transpose());
+    for (typename Eigen::SparseVector<Scalar>::InnerIterator entry(column); entry; ++entry)
+      visit(static_cast<int>(entry.index()), entry.value());
+  }
+
  private:
   Rows J_;
   Matrix W_;
@@ -65,6 +73,11 @@ class FactoredMatrix {
 template <class Scalar, class Visit>
 void ForEachEntry(const FactoredMatrix<Scalar>& A, Visit visit) {
   A.ForEach(visit);
+}
+
+template <class Scalar, class Visit>
+void ForEachInColumn(const FactoredMatrix<Scalar>& A, int column, Visit visit) {
+  A.ForEachInColumn(column, visit);
 }
 
 template <class Scalar>

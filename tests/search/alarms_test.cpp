@@ -21,7 +21,7 @@
 #include "search/units/regenerate.h"
 #include "search/units/signature.h"
 #include "search/units/unit.h"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 
@@ -245,7 +245,8 @@ TEST_CASE("alarms: the residual that a wrong answer is told by is that of its fo
         Eigen::VectorXd moved(f.size());
         for (std::size_t i = 0; i < f.size(); ++i) moved[i] = f[i] *= 1 + error;
         const Eigen::VectorXd a = problem.A * moved + problem.b;
-        wrong = ErrorOf(problem, moved, a) > 1e-6;
+        LenientUnits<double> units;
+        wrong = MeasureLeniently(problem, FrictionLaw::kCoulomb, moved, a, units).error > 1e-6;
       };
       CAPTURE(unit, error);
       const UnitResult result = UnitRunner(campaign, solvers).Run(unit);  // sets `wrong`
