@@ -406,9 +406,12 @@ class Judge:
             for j in ghosts:
                 for i, x in self.columns[j]:
                     noise[i] += x * abs(self.f[j])
-        errors = [max([of_friction] + [over(max(0.0, x + noise[i]), max(0.0, self.s[i] - self.theta * noise[i]))
-                                       for i, x in missed.items()])
-                  for of_friction, missed, _ in found]
+        errors = []
+        for k, (of_friction, missed, _) in enumerate(found):
+            first = self.problem.first[k]
+            rows = range(first, first + self.problem.rows_of(self.problem.contacts[k]))
+            errors.append(max([of_friction] + [over(max(noise[i], missed.get(i, 0.0) + noise[i]),
+                                                    max(0.0, self.s[i] - self.theta * noise[i])) for i in rows]))
         errors = [min(x, 1 / self.theta) for x in errors]
         worst = max(range(len(errors)), key=errors.__getitem__, default=None)
         return (errors[worst], worst + 1) if errors else (0.0, None)

@@ -14,7 +14,8 @@
 // (bilateral: aN = 0; sliding: fF = -mu slip fN (24) and no condition on aF; frictionless: the first two lines for
 // the normal alone; by (21), (22): fF.aF <= 0 in place of aF = -t fF.) What a condition on a row misses is told in
 // units of the row, and what one on abs(fF) misses in units of mu fN: the error is the largest of both. Forces that
-// a mode wants to be zero are taken for zero, and what all of them do to a row is added to what the row misses.
+// a mode wants to be zero are taken for zero; what all of them do to a row is added to what the row misses, and is an error
+// of every row.
 //
 // So, with eps = the error and tau = theta eps: **the forces, those taken for zero set to zero, satisfy every
 // condition exactly for some b, mu and A that differ by at most eps abs(b), eps mu and tau abs(A), entry by entry**
@@ -400,6 +401,7 @@ class ErrorMeter {
         if (has_ghosts_) unit_[row] = std::max(Scalar(0), Scalar(unit_[row] - theta_ * ghosts_[row]));
         const Scalar size = size_[row] + Abs(Scalar(problem.b[row]));
         errors.amplification = std::max(errors.amplification, Capped(InUnits(size, unit_[row])));
+        if (has_ghosts_) errors.acceleration = std::max(errors.acceleration, RowError(ghosts_[row], row));
         if (condition_[row] == Condition::kNone) continue;
         Scalar missed = condition_[row] == Condition::kZero ? Scalar(Abs(missed_[row])) : Scalar(-missed_[row]);
         missed += RoundingOf(row);

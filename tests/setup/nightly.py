@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `./run test --nightly` ends with: its steps, how long each took and how it ended, as reports/measured/nightly.md.
 
-    nightly.py FOLDER PROGRAM    FOLDER has steps.tsv and a log of each step; PROGRAM says its commit
+    nightly.py FOLDER PROGRAM STEP...    FOLDER has STEP.tsv and STEP.log of the last run of each; PROGRAM says its commit
 
-Written only where the program was built of a commit. Exit 1 if a step failed."""
+Written only where every step was run on the commit of the program, with nothing uncommitted. Exit 1 if a step failed, or
+is missing."""
 
 import re
 import sys
@@ -28,11 +29,15 @@ SAID = {
 }
 
 
-def step(folder, line):
-    name, seconds, status = line.split("\t")
-    log = folder / f"{name}.log"
+def step(folder, name):
+    """A row of the table, seconds, and the commit that the step was run on; nothing where it was not run."""
+    file, log = folder / f"{name}.tsv", folder / f"{name}.log"
+    if not file.exists():
+        return (name, "", "not run", ""), 0, None
+    _, seconds, status, commit = file.read_text().rstrip("\n").split("\t")
     said = re.findall(f"^{SAID[name]}$", log.read_text(errors="replace"), re.M) if name in SAID and log.exists() else []
-    return name, f"{int(seconds) / 60:.1f}", "passed" if status == "0" else f"failed ({status})", said[-1] if said else ""
+    ended = "passed" if status == "0" else f"failed ({status})"
+    return (name, f"{int(seconds) / 60:.1f}", ended, said[-1] if said else ""), int(seconds), commit
 
 
 def mutants(folder):
@@ -43,18 +48,20 @@ def mutants(folder):
 
 
 def main():
-    folder, program = Path(sys.argv[1]), sys.argv[2]
-    lines = (folder / "steps.tsv").read_text().splitlines()
-    rows = [step(folder, line) for line in lines]
-    minutes = sum(int(line.split("\t")[1]) for line in lines) / 60
+    folder, program, names = Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
+    steps = [step(folder, name) for name in names]
+    rows, commit = [row for row, _, _ in steps], figures.commit(program)
+    minutes = sum(seconds for _, seconds, _ in steps) / 60
     text = table(["step", "minutes", "ended", "said"], rows) + f"\n\n{minutes:.0f} minutes in all.{mutants(folder)}"
     failed = [row[0] for row in rows if row[2] != "passed"]
+    others = [row[0] for row, _, of in steps if of is None or not commit.startswith(of)]
     print(text)
-    if "dirty" in figures.commit(program):
-        print("nightly: not written: the program was built of no commit; commit, and run it again")
+    if others:
+        print(f"nightly: not written: not run on commit {commit}, with nothing uncommitted: {' '.join(others)}")
+        failed += [name for name in others if name not in failed]
     else:
         figure = next(one for one in MEASUREMENTS if one.name == "nightly")
-        facts = {"command": "./run test --nightly", "commit": figures.commit(program), "date": time.strftime("%Y-%m-%d"),
+        facts = {"command": "./run test --nightly", "commit": commit, "date": time.strftime("%Y-%m-%d"),
                  "machine": figures.machine()}
         (ROOT / figure.file).write_text(figures.measured_file(figure, text, facts))
         listed = next(one for one in BLOCKS if one.name == "measured")
