@@ -218,7 +218,8 @@ Answer<Scalar> RunAsIs(const Method<Scalar>& method, const ContactProblem<Scalar
   return answer;
 }
 
-// Forces of float and double are refined where the gate asks for it; wider ones are, when they are told in doubles.
+// Forces of float and double are refined where the gate asks for it; wider ones are, when they are told in
+// doubles.
 template <class Scalar>
 Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw law, const Gate& gate,
                            typename ContactProblem<Scalar>::Vector& f) {

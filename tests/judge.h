@@ -54,7 +54,8 @@ inline std::string FaultOf(const ExactProblem& problem, const SolveRequest& requ
   const ExactProblem ran = filtered && exact ? problem : AsRun(problem, request.arithmetic);
   if (exact) return FaultOf(ran, *exact);
   const double residual = request.options.residual;
-  const Gate gate = request.arithmetic == Arithmetic::kFloat ? GateOf<float>(residual) : GateOf<double>(residual);
+  const Gate gate =
+      request.arithmetic == Arithmetic::kFloat ? GateOf<float>(residual) : GateOf<double>(residual);
   return FaultOf(ran, std::get<InexactAnswer>(solution.answer), gate);
 }
 

@@ -21,7 +21,8 @@ int Signed(const Rational& x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
 struct Reach {
   Rational eps, tau;
 
-  void Move(ExactProblem& problem, const ExactVector& f, int row, const Rational& free, const Rational& change) const {
+  void Move(ExactProblem& problem, const ExactVector& f, int row, const Rational& free,
+            const Rational& change) const {
     if (change == 0) return;
     Rational size = 0;
     for (int j = 0; j < problem.rows(); ++j) size += abs(problem.A(row, j) * f[j]);
@@ -195,7 +196,8 @@ std::optional<std::string> FindNotice(const ExactProblem& given, const ExactVect
 
 std::optional<std::string> FindBroken(const ExactProblem& problem, const ExactVector& f, FrictionLaw law) {
   if (problem.dimension == 2) return FindViolation(problem, f);
-  return law == FrictionLaw::kBaraff ? FindWeakViolation(problem, f) : FindCoulombViolation(problem, f, Rational(1));
+  return law == FrictionLaw::kBaraff ? FindWeakViolation(problem, f)
+                                     : FindCoulombViolation(problem, f, Rational(1));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A problem as an arithmetic rounds it, which is another problem than that of the file.
 //
-// Proofs are of the file. What decides exactly may be asked of rounded numbers too, and then it answers with an
-// InexactAnswer, which is never called exact or proved: `no-solution` of a rounded problem is `undecided` of the file.
-// Where rounding changed nothing the rounded problem is that of the file.
+// Proofs are of the file. An exact method may be run on rounded numbers too, and then it answers with an
+// InexactAnswer, which is never called exact or proved: `no-solution` of a rounded problem is `undecided` of
+// the file. Where rounding changed nothing the rounded problem is that of the file.
 
 #ifndef STICTION_CERTIFY_REQUEST_ROUNDED_PROBLEM_H_
 #define STICTION_CERTIFY_REQUEST_ROUNDED_PROBLEM_H_
@@ -34,33 +34,36 @@ class RoundedProblem {
   // The problem of the file, of which proofs are.
   ExactProblem File() const { return changed_ ? *changed_ : Unrounded(numbers_); }
 
-  // What decides exactly, run on the rounded numbers. Its forces are rounded and judged.
+  // An exact method, run on the rounded numbers.
   InexactAnswer RunExactly(const SolveRequest& request, double bound) const {
     const ExactAnswer exact = SolveExactly(Unrounded(numbers_), request);
-    const auto convert = [](const Rational& x) { return ToDouble(x); };
+    InexactAnswer told = Told(exact, request.arithmetic, bound);
+    if (exact.outcome != Outcome::kNoSolution || IsFile()) return told;
+    told.outcome = Outcome::kUndecided;
+    told.reason = "the problem, rounded to " + std::string(Name(request.arithmetic)) +
+                  ", has no solution, which proves nothing of the file; --arithmetic exact decides it";
+    return told;
+  }
+
+  // An exact answer in these numbers: its forces are rounded, and judged.
+  InexactAnswer Told(const ExactAnswer& exact, Arithmetic arithmetic, double bound) const {
+    const auto convert = [](const Rational& x) { return static_cast<double>(static_cast<Scalar>(ToDouble(x))); };
     InexactAnswer told;
     told.outcome = exact.outcome;
     told.reason = exact.reason;
     told.start = exact.start;
     told.period = exact.period;
     told.method = exact.method;
-    told.arithmetic = request.arithmetic;
+    told.arithmetic = arithmetic;
     told.law = exact.law;
     told.word = exact.word;
     told.counters = exact.counters;
     told.f = exact.f.unaryExpr(convert);
+    told.a = exact.a.unaryExpr(convert);
     told.ray = exact.ray.unaryExpr(convert);
     told.first_f = exact.first_f.unaryExpr(convert);
     for (const auto& pivot : exact.pivots) told.pivots.push_back(Converted<double>(pivot, convert));
-    if (told.outcome == Outcome::kNoSolution) {
-      told.outcome = Outcome::kUndecided;
-      told.f.resize(0);
-      told.reason = std::string("the problem, rounded to ") + std::string(Name(request.arithmetic)) +
-                    ", has no solution, which proves nothing of the file; --arithmetic exact decides it";
-      return told;
-    }
-    const auto doubles = Converted<double>(numbers_, [](const Scalar& x) { return static_cast<double>(x); });
-    JudgeAnswer(doubles, bound, told);
+    if (exact.f.size() == numbers_.rows()) JudgeInDoubles(bound, told);
     return told;
   }
 
@@ -73,13 +76,32 @@ class RoundedProblem {
         if (!same(file.A(i, j), numbers_.A(i, j))) return false;
     }
     for (std::size_t i = 0; i < file.contacts.size(); ++i) {
-      const auto &contact = file.contacts[i];
-      const auto &rounded = numbers_.contacts[i];
+      const auto& contact = file.contacts[i];
+      const auto& rounded = numbers_.contacts[i];
       if (!same(contact.mu, rounded.mu) || !same(contact.slip[0], rounded.slip[0]) ||
           !same(contact.slip[1], rounded.slip[1]))
         return false;
     }
     return true;
+  }
+
+  // Forces of float are held to what float tells.
+  void JudgeInDoubles(double bound, InexactAnswer& told) const {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      Answer<float> narrow;
+      narrow.outcome = told.outcome;
+      narrow.law = told.law;
+      narrow.f = told.f.template cast<float>();
+      JudgeAnswer(numbers_, bound, narrow);
+      told.outcome = narrow.outcome;
+      if (!narrow.reason.empty()) told.reason = narrow.reason;
+      told.f = narrow.f.template cast<double>();
+      told.a = narrow.a.template cast<double>();
+      told.errors = narrow.errors;
+    } else {
+      const auto doubles = Converted<double>(numbers_, [](const Scalar& x) { return static_cast<double>(x); });
+      JudgeAnswer(doubles, bound, told);
+    }
   }
 
   ContactProblem<Scalar> numbers_;

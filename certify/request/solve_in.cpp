@@ -74,8 +74,8 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
   return moving;
 }
 
-// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; file(): that of which
-// it is a rounding.
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; file(): that of
+// which it is a rounding.
 template <class File>
 void PreferRestRounded(const ContactProblem<double>& rounded, File file, const SolveRequest& request,
                        InexactAnswer& answer) {
@@ -130,8 +130,9 @@ void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request,
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
   const int dimension = problem.numbers().dimension;
   if (dimension == 3 && request.method == "baraff") {
-    RunAgainInSpace(Converted<double>(problem.numbers(), [](const Scalar& x) { return static_cast<double>(x); }),
-                    request, solution);
+    RunAgainInSpace(
+        Converted<double>(problem.numbers(), [](const Scalar& x) { return static_cast<double>(x); }), request,
+        solution);
     return;
   }
   if (dimension != 2 || !facts->IsBuilt(dimension, Arithmetic::kExact)) return;
@@ -143,14 +144,13 @@ void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request,
   }
 }
 
-// What decides exactly, asked for rounded numbers: its forces are rounded, and then judged.
+// What decides exactly decides the problem of the file, in whatever numbers its forces are asked for: these are
+// rounded, and judged on the problem that is rounded as they are.
 template <class Scalar>
 Solution SolveAndRound(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
-  if (problem.IsFile()) {
-    ExactAnswer answer = SolveExactly(problem.File(), request);
-    if (answer.outcome == Outcome::kNoSolution) return {.answer = std::move(answer)};
-  }
-  return {.answer = problem.RunExactly(request, BoundOf<Scalar>(request.options))};
+  ExactAnswer exact = SolveExactly(problem.File(), request);
+  if (exact.outcome == Outcome::kNoSolution) return {.answer = std::move(exact)};
+  return {.answer = problem.Told(exact, request.arithmetic, BoundOf<Scalar>(request.options))};
 }
 
 // The row that is built over doubles alone; null if there is none.
@@ -207,7 +207,8 @@ Solution SolveRounded(const RoundedProblem<Scalar>& problem, const SolveRequest&
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
   Confirm(problem, request, solution);
   const auto ran = Converted<double>(rounded, [](const Scalar& x) { return static_cast<double>(x); });
-  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRestRounded(ran, file, request, *answer);
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer))
+    PreferRestRounded(ran, file, request, *answer);
   return solution;
 }
 
@@ -267,8 +268,9 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
       PreferRest(problem, request, *exact);
     } else {
-      PreferRestRounded(Rounded<double>(problem), [&problem] { return problem; }, request,
-                        std::get<InexactAnswer>(solution.answer));
+      PreferRestRounded(
+          Rounded<double>(problem), [&problem] { return problem; }, request,
+          std::get<InexactAnswer>(solution.answer));
     }
     return solution;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenient errors of forces in lanes: MeasureLeniently of solver/problem/lenient.h, of the forces alone, operation by
-// operation; included once by the file of each instruction set.
+// Lenient errors of forces in lanes: MeasureLeniently of solver/problem/lenient.h, of the forces alone,
+// operation by operation; included once by the file of each instruction set.
 
 #include <limits>
 

@@ -185,7 +185,8 @@ JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, con
   if (is_coulombs && IsRight(posed, accuracy, f)) {
     const Eigen::VectorXd a = posed.A * f + posed.b;
     LenientUnits<double> units;
-    judged.error = std::min(MeasureLeniently(posed, FrictionLaw::kCoulomb, f, a, units).error, ToDouble(accuracy));
+    judged.error =
+        std::min(MeasureLeniently(posed, FrictionLaw::kCoulomb, f, a, units).error, ToDouble(accuracy));
     return judged;
   }
   const ExactProblem problem = ExactOf(posed);

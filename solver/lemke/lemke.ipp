@@ -524,9 +524,9 @@ Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
     ErrorMeter<Scalar> meter;
     const Scalar theta(1);  // relative to all that acts at a row: the gate looks more closely, and refines
-    const Errors<Scalar> errors =
-        polygons_ == nullptr ? MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_, meter, theta)
-                             : PolygonErrors(*problem_, *polygons_, f_, a_, theta);
+    const Errors<Scalar> errors = polygons_ == nullptr
+                                      ? MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_, meter, theta)
+                                      : PolygonErrors(*problem_, *polygons_, f_, a_, theta);
     if (errors.Largest() > residual_tolerance_) {
       verdict_.reason = "errors of the answer";
       return Outcome::kUndecided;

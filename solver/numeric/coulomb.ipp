@@ -162,8 +162,7 @@ auto CoulombSolver<Scalar, ProblemType>::ForceOf(int i) const -> Triple {
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Note() {
   const Vector a = problem_->A * f_ + problem_->b;
-  const Scalar residual =
-      MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a, meter_, theta()).Largest();
+  const Scalar residual = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a, meter_, theta()).Largest();
   if (!(residual < best_)) return;
   best_ = residual;
   best_f_ = f_;

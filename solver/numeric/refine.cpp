@@ -15,11 +15,11 @@ namespace {
 using Problem = ContactProblem<double>;
 using Vector = Problem::Vector;
 
-constexpr int kMostRows = 1200;          // beyond which a dense factorization takes too long
-constexpr int kRounds = 4;               // of modes that change
-constexpr int kSteps = 4;                // of Newton's method, for given modes
-constexpr double kShift = 1e-9;          // beside diagonals of about 1
-constexpr double kHopeless = 1e-3;       // backward errors that no noise explains
+constexpr int kMostRows = 1200;     // beyond which a dense factorization takes too long
+constexpr int kRounds = 4;          // of modes that change
+constexpr int kSteps = 4;           // of Newton's method, for given modes
+constexpr double kShift = 1e-9;     // beside diagonals of about 1
+constexpr double kHopeless = 1e-3;  // backward errors that no noise explains
 
 // Onto the limit mu fN, which changes less by fN where mu > 1.
 void Limit(const Contact<double>& contact, int tangents, double* fN, double* fF) {
@@ -96,8 +96,8 @@ class Refinement {
 
   bool Passes() const { return best_.errors.Largest() <= gate_.eps; }
 
-  // The modes that are nearest relative to all that acts at a row: beside forces that cancel noise is large in the
-  // units of the gate, and would pass for slip.
+  // The modes that are nearest relative to all that acts at a row: beside forces that cancel noise is large in
+  // the units of the gate, and would pass for slip.
   void FindModes(const Vector& f) {
     meter_.Bound(problem_, law_, f, Gate{1, 1});
     modes_ = meter_.meter().modes();
@@ -135,7 +135,8 @@ class Refinement {
       row_of_.push_back(row);
       directions_.push_back({0, 0});
       const bool bilateral = contact.kind == ContactKind::kBilateral;
-      if (bilateral || (modes_[i] != Motion::kSeparates && f[row] > 0)) {
+      const bool presses = f[row] > 0 || meter_.a()[row] < 0;
+      if (bilateral || (modes_[i] != Motion::kSeparates && presses)) {
         unknowns_.push_back({row, i, Equation::kAcceleration});
         if (contact.kind == ContactKind::kSliding) {
           for (int k = 0; k < tangents; ++k) directions_[i][k] = -contact.slip[k];
@@ -160,20 +161,20 @@ class Refinement {
   }
 
   // How the accelerations change with an unknown.
-  void AddResponse(const Unknown& unknown, Vector& response) const {
-    response = problem_.A.col(unknown.row);
-    if (unknown.row != row_of_[unknown.contact] || !Follows(unknown.contact)) return;
+  Vector ResponseTo(const Unknown& unknown) const {
+    Vector response = problem_.A.col(unknown.row);
+    if (unknown.row != row_of_[unknown.contact] || !Follows(unknown.contact)) return response;
     const auto& contact = problem_.contacts[unknown.contact];
     for (int k = 0; k + 1 < problem_.dimension; ++k)
       response += contact.mu * directions_[unknown.contact][k] * problem_.A.col(unknown.row + 1 + k);
+    return response;
   }
 
   void Assemble(const Vector& f, double shift) {
     const int size = static_cast<int>(unknowns_.size());
     M_.resize(size, size);
-    Vector response;
     for (int j = 0; j < size; ++j) {
-      AddResponse(unknowns_[j], response);
+      const Vector response = ResponseTo(unknowns_[j]);
       for (int i = 0; i < size; ++i) M_(i, j) = Entry(unknowns_[i], unknowns_[j], f, response);
     }
     for (int i = 0; i < size; ++i)

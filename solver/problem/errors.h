@@ -3,7 +3,8 @@
 //
 // With a = A f + b, S_i = sum_j abs(A_ij f_j) and a number theta, the unit of row i is
 //
-//   s_N = abs(b_N) + theta S_N,      s_T = abs(b_T) + theta S_T   (abs(b_T): of the tangents of a contact together)
+//   s_N = abs(b_N) + theta S_N,      s_T = abs(b_T) + theta S_T   (abs(b_T): of the tangents of a contact
+//   together)
 //
 // A contact is in one of its modes:
 //
@@ -11,25 +12,26 @@
 //   rests       fN >= 0, abs(fF) <= mu fN;  aN = 0, aF = 0
 //   slips       fN >= 0, abs(fF) = mu fN;   aN = 0, aF = -t fF with some t >= 0
 //
-// (bilateral: aN = 0; sliding: fF = -mu slip fN (24) and no condition on aF; frictionless: the first two lines for
-// the normal alone; by (21), (22): fF.aF <= 0 in place of aF = -t fF.) What a condition on a row misses is told in
-// units of the row, and what one on abs(fF) misses in units of mu fN: the error is the largest of both. Forces that
-// a mode wants to be zero are taken for zero; what all of them do to a row is added to what the row misses, and is an error
-// of every row.
+// (bilateral: aN = 0; sliding: fF = -mu slip fN (24) and no condition on aF; frictionless: the first two lines
+// for the normal alone; by (21), (22): fF.aF <= 0 in place of aF = -t fF.) What a condition on a row misses is
+// told in units of the row, and what one on abs(fF) misses in units of mu fN: the error is the largest of both.
+// Forces that a mode wants to be zero are taken for zero; what all of them do to a row is added to what the row
+// misses, and is an error of every row.
 //
 // So, with eps = the error and tau = theta eps: **the forces, those taken for zero set to zero, satisfy every
-// condition exactly for some b, mu and A that differ by at most eps abs(b), eps mu and tau abs(A), entry by entry**
-// (for the tangents of a contact eps abs(b_T); for sliding contacts mu slip by eps mu). Proof: W. Oettli and W.
-// Prager, 1964: a row that misses r may be mended by db_i = -x eps abs(b_i), dA_ij = -x tau abs(A_ij) sign f_j, x =
-// r / (eps s_i). certify/exact/neighbour.h makes that problem, and holds the forces against it.
+// condition exactly for some b, mu and A that differ by at most eps abs(b), eps mu and tau abs(A), entry by
+// entry** (for the tangents of a contact eps abs(b_T); for sliding contacts mu slip by eps mu). Proof: W.
+// Oettli and W. Prager, 1964: a row that misses r may be mended by db_i = -x eps abs(b_i), dA_ij = -x tau
+// abs(A_ij) sign f_j, x = r / (eps s_i). certify/exact/neighbour.h makes that problem, and holds the forces
+// against it.
 //
-// Forces that are zero lend nothing to a unit; forces that only press against each other, a jam, lend theta times
-// what they do to a row, as their rounding does. Neither A's symmetry nor its definiteness is needed, and mu is never
-// divided by: it may be infinite. A -> D A D, b -> D b, f -> D^-1 f with a positive factor per contact changes no
-// error. Errors are at most 1 / theta.
+// Forces that are zero lend nothing to a unit; forces that only press against each other, a jam, lend theta
+// times what they do to a row, as their rounding does. Neither A's symmetry nor its definiteness is needed, and
+// mu is never divided by: it may be infinite. A -> D A D, b -> D b, f -> D^-1 f with a positive factor per
+// contact changes no error. Errors are at most 1 / theta.
 //
-// On polygons (complete/polygon_errors.h) a slip is told by the distance of fF from the point of mu fN times the
-// polygon that is nearest to fF - r aF, in units of mu fN, with r the ratio of mu fN and s_T.
+// On polygons (complete/polygon_errors.h) a slip is told by the distance of fF from the point of mu fN times
+// the polygon that is nearest to fF - r aF, in units of mu fN, with r the ratio of mu fN and s_T.
 //
 // Shapes: f, a rows x 1. Rows whose acceleration is known to be off by at most E_i miss that much more.
 
@@ -110,8 +112,8 @@ Gate GateOf(double residual = 0) {
   return {eps, std::min(eps, kRoundings * kTold<Scalar>)};
 }
 
-// Where a method looks at its own forces, with accelerations that it has rounded itself: theta with that rounding in
-// tau. What it takes for solved is left to the gate.
+// Where a method looks at its own forces, with accelerations that it has rounded itself: theta with that
+// rounding in tau. What it takes for solved is left to the gate.
 template <class Scalar>
 Scalar WorkingTheta(double residual, int rows) {
   if constexpr (kIsExact<Scalar>) {
@@ -229,12 +231,11 @@ template <class Scalar>
 class ErrorMeter {
  public:
   // friction.Excess(contact, FrictionAt): what fF is beyond the limit, relative to it; friction.Slip(contact,
-  // FrictionAt) -> SlipMiss. Of static contacts with a limit above 0. a: A f + b, off by at most rounding[i] where that
-  // is given. Infinite errors only of numbers that are not finite.
+  // FrictionAt) -> SlipMiss. Of static contacts with a limit above 0. a: A f + b, off by at most rounding[i]
+  // where that is given. Infinite errors only of numbers that are not finite.
   template <class Problem, class Vector, class Friction>
   Errors<Scalar> Measure(const Problem& problem, const Vector& f, const Vector& a, const Scalar& theta,
-                         const Friction& friction,
-                         const std::vector<Scalar>* rounding = nullptr) {
+                         const Friction& friction, const std::vector<Scalar>* rounding = nullptr) {
     Errors<Scalar> errors;
     Scalar zero(0);
     for (int i = 0; i < problem.rows(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
@@ -306,7 +307,8 @@ class ErrorMeter {
 
   // A contact: its mode, and what its rows miss there.
   template <class Problem, class Vector, class Friction>
-  void Take(const Problem& problem, const Vector& f, const Vector& a, int i, int row, const Friction& friction) {
+  void Take(const Problem& problem, const Vector& f, const Vector& a, int i, int row,
+            const Friction& friction) {
     const auto& contact = problem.contacts[i];
     const int count = RowsOf(contact, problem.dimension);
     missed_[row] = a[row];
@@ -342,8 +344,8 @@ class ErrorMeter {
                       const Friction& friction) {
     const auto& contact = problem.contacts[i];
     const Scalar limit = Limit(Scalar(contact.mu), Scalar(f[row]));
-    FrictionAt<Scalar> at{limit, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)},
-                          count == 2};
+    FrictionAt<Scalar> at{
+        limit, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, count == 2};
     std::array<Scalar, 2> sliding = {Scalar(0), Scalar(0)};
     for (int k = 0; k + 1 < count; ++k) {
       at.f[k] = f[row + 1 + k];
@@ -421,7 +423,7 @@ class ErrorMeter {
   std::vector<Scalar> size_, unit_, missed_, ghosts_;  // by row
   std::vector<Condition> condition_;                   // by row
   std::vector<Scalar> of_friction_;                    // by contact
-  std::vector<Motion> modes_;                            // by contact
+  std::vector<Motion> modes_;                          // by contact
   bool has_ghosts_ = false;
 };
 

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gate: upper bounds of the strict errors of forces (errors.h), by which alone they are called solved.
 //
-// Accelerations are computed anew. Over m forces that are not zero, u = 2^-53, a row summed in doubles is off by at most
+// Accelerations are computed anew. Over m forces that are not zero, u = 2^-53, a row summed in doubles is off
+// by at most
 //
 //   E_i = (m + 2) u (abs(b_i) + S_i)                          C.-P. Jeannerod and S. Rump, 2013
 //
-// which counts as an error of it. That decides most rows; one where E_i is above a sixteenth of what the row may miss
-// is summed again with twice the digits (Dot2; T. Ogita, S. Rump and S. Oishi, 2005), which leaves
+// which counts as an error of it. That decides most rows; one where E_i is above a sixteenth of what the row
+// may miss is summed again with twice the digits (Dot2; T. Ogita, S. Rump and S. Oishi, 2005), which leaves
 //
 //   E_i = u abs(a_i) + 2 (m + 2)^2 u^2 (abs(b_i) + S_i)
 //
-// far below tau S_i = 8 u S_i. So a solution that is right to its last digit is never refused for the gate's own
-// rounding. Problems of float are measured in doubles, where their products are exact; wider numbers in themselves.
-// Where products leave the range of doubles, the problem is scaled first, which changes no error (row_scale.h).
+// far below tau S_i = 8 u S_i. So a solution that is right to its last digit is never refused for the gate's
+// own rounding. Problems of float are measured in doubles, where their products are exact; wider numbers in
+// themselves. Where products leave the range of doubles, the problem is scaled first, which changes no error
+// (row_scale.h).
 
 #ifndef STICTION_SOLVER_PROBLEM_GATE_H_
 #define STICTION_SOLVER_PROBLEM_GATE_H_
@@ -137,7 +139,8 @@ bool LeavesRange(const Problem& problem, const GateMeter<double>& meter, const G
 
 }  // namespace internal
 
-// Problem: of double, dense, sparse or in factors, or dense of wider numbers. Infinite if a number is not finite.
+// Problem: of double, dense, sparse or in factors, or dense of wider numbers. Infinite if a number is not
+// finite.
 template <class Problem, class Vector>
 Errors<double> BoundErrors(const Problem& problem, FrictionLaw law, const Vector& f, const Gate& gate,
                            GateMeter<typename Vector::Scalar>& meter, double noise = 0) {

@@ -2,15 +2,16 @@
 // Lenient errors of forces: what they miss in the largest units that a reader may wish for (units.h).
 //
 // Only they accuse: forces of another program are called *wrong* if their lenient error is above its accuracy,
-// *solved* if their strict one (errors.h) is within it, and *neither* between the two. Forces that are off by a share x
-// of the largest at their contact, and zero where that is zero, have a lenient error of at most 2 x.
+// *solved* if their strict one (errors.h) is within it, and *neither* between the two. Forces that are off by a
+// share x of the largest at their contact, and zero where that is zero, have a lenient error of at most 2 x.
 //
 //   separates   -aN / s_N,  abs(fN) / phi_N,  abs(fF) / phi_F
 //   rests       abs(aN) / s_N,  -fN / phi_N,  abs(aF) / s_F,  (abs(fF) - mu fN) / L
 //   slips       the first two of these, abs(fF + mu fN aF / abs(aF)) / L
 //   slips slowly  the first two, abs(fF - p) / L, p the point of the disc nearest to fF - (L / s_F) aF
 //
-// each the largest of its line, the contact that of its least mode. By (21), (22) a slip has any direction with fF.aF
+// each the largest of its line, the contact that of its least mode. By (21), (22) a slip has any direction with
+// fF.aF
 // <= 0. Shapes: f, a rows x 1; a = A f + b.
 
 #ifndef STICTION_SOLVER_PROBLEM_LENIENT_H_
@@ -68,8 +69,8 @@ class LenientFriction {
 
 // Of one contact, its normal in `row`.
 template <class Problem, class Vector, class Scalar>
-Scalar LenientErrorOf(const Problem& problem, FrictionLaw law, const LenientUnits<Scalar>& units, const Vector& f,
-                      const Vector& a, int i, int row) {
+Scalar LenientErrorOf(const Problem& problem, FrictionLaw law, const LenientUnits<Scalar>& units,
+                      const Vector& f, const Vector& a, int i, int row) {
   const auto& contact = problem.contacts[i];
   const Scalar fN = f[row], aN = a[row];
   const auto accelerates = [&](const Scalar& x) {
@@ -98,8 +99,8 @@ Scalar LenientErrorOf(const Problem& problem, FrictionLaw law, const LenientUnit
   return std::min(open, std::max(closed, friction.Error(law, count == 2)));
 }
 
-// The largest of all contacts, and where; of numbers that are not finite it is infinite. `units` is written: its
-// memory is kept between calls.
+// The largest of all contacts, and where; of numbers that are not finite it is infinite. `units` is written:
+// its memory is kept between calls.
 template <class Scalar>
 struct LenientError {
   Scalar error = Scalar(0);

@@ -114,8 +114,7 @@ template <class Values>
 auto TangentLength(const Values& x, int row, int rows) {
   using Scalar = std::decay_t<decltype(x[0])>;
   if (rows == 1) return Scalar(0);
-  return rows == 2 ? Scalar(Abs(Scalar(x[row + 1])))
-                   : Scalar(Length(Scalar(x[row + 1]), Scalar(x[row + 2])));
+  return rows == 2 ? Scalar(Abs(Scalar(x[row + 1]))) : Scalar(Length(Scalar(x[row + 1]), Scalar(x[row + 2])));
 }
 
 template <class Scalar>
@@ -143,7 +142,8 @@ class LenientUnits {
       if (count == 1) return;
       const Scalar tangents = ForceUnit(problem, row + 1, count - 1);
       for (int k = 1; k < count; ++k) force_[row + k] = tangents;
-      const Scalar mu(problem.contacts[i].mu), noise = own_[row] > 0 ? Scalar(size_[row] / own_[row]) : Scalar(0);
+      const Scalar mu(problem.contacts[i].mu),
+          noise = own_[row] > 0 ? Scalar(size_[row] / own_[row]) : Scalar(0);
       const Scalar normal = std::max(Scalar(0), Scalar(f[row])) + noise;
       friction_[i] = tangents + (normal > 0 ? Scalar(mu * normal) : Scalar(0));
     });

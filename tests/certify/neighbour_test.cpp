@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Neighbours of a problem: forces that are called solved solve one exactly; what is altered, in the forces or in the
-// neighbour, is refused. A small sample of bench --suite gate besides.
+// Neighbours of a problem: forces that are called solved solve one exactly; what is altered, in the forces or
+// in the neighbour, is refused. A small sample of bench --suite gate besides.
 
 #include "certify/exact/neighbour.h"
 
@@ -22,8 +22,8 @@ using namespace testing;
 
 const Gate kGate = GateOf<double>();
 
-bool Passes(const ExactProblem& problem, const std::vector<Rational>& f, FrictionLaw law = FrictionLaw::kCoulomb,
-            const Gate& gate = kGate) {
+bool Passes(const ExactProblem& problem, const std::vector<Rational>& f,
+            FrictionLaw law = FrictionLaw::kCoulomb, const Gate& gate = kGate) {
   return !FindMiss(problem, Vector(f), law, gate);
 }
 

@@ -231,7 +231,7 @@ TEST_CASE("judge: the paper's law in space") {
   problem.contacts[0].mu = Number("0.5");
   CHECK(holds(problem, Vector({5, Number("1.5"), 2}), 0));     // slips, at the limit
   CHECK(!holds(problem, Vector({5, Number("-1.5"), -2}), 0));  // pushes along
-  CHECK(!holds(problem, Vector({5, 3, 4}), 0.1));    // out of the cone
+  CHECK(!holds(problem, Vector({5, 3, 4}), 0.1));              // out of the cone
 }
 
 TEST_CASE("claims: a false one is noticed, whatever the checker says of it") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate: what is called a solution solves exactly a problem whose numbers differ by as little as it says; it does not
-// depend on the units of contacts, on mu, or on forces that are zero; and what is right to the last digit passes.
+// The gate: what is called a solution solves exactly a problem whose numbers differ by as little as it says; it
+// does not depend on the units of contacts, on mu, or on forces that are zero; and what is right to the last
+// digit passes.
 
 #include "solver/problem/gate.h"
 
@@ -124,7 +125,8 @@ TEST_CASE("gate: whatever mu is, free fall is no solution, and rest is one") {
     ContactProblem<double> problem = As<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-4, 0}));
     problem.contacts[0].mu = mu;
     const auto error = [&problem](double fN, double fF) {
-      return BoundErrors(problem, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(fN, fF)), GateOf<double>())
+      return BoundErrors(problem, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(fN, fF)),
+                         GateOf<double>())
           .Largest();
     };
     CHECK(error(0, 0) == Approx(1));    // aN = -4 of 4
@@ -152,8 +154,8 @@ TEST_CASE("gate: forces that only press against each other lend eight of their r
 
 // ---- Attacks: forces that are wrong by all of what acts, and problems that would excuse them ---------------
 
-ExactProblem Contacts(const std::vector<Contact<Rational>>& contacts, const std::vector<std::vector<Rational>>& A,
-                      const std::vector<Rational>& b) {
+ExactProblem Contacts(const std::vector<Contact<Rational>>& contacts,
+                      const std::vector<std::vector<Rational>>& A, const std::vector<Rational>& b) {
   ExactProblem problem = MakeProblem(std::vector<Rational>(contacts.size(), 0), {}, {});
   problem.contacts = contacts;
   problem.b = Vector(b);
@@ -163,13 +165,16 @@ ExactProblem Contacts(const std::vector<Contact<Rational>>& contacts, const std:
   return problem;
 }
 const Contact<Rational> kSmooth = {ContactKind::kFrictionless, 0, {}};
-Contact<Rational> Sliding(const Rational& mu) { return {ContactKind::kSliding, mu, {Rational(1), Rational(0)}}; }
+Contact<Rational> Sliding(const Rational& mu) {
+  return {ContactKind::kSliding, mu, {Rational(1), Rational(0)}};
+}
 Contact<Rational> Static(const Rational& mu) { return {ContactKind::kStatic, mu, {}}; }
 
 TEST_CASE("gate: a neighbour without force, however heavily loaded, does not hold up a contact") {
   const Rational tenth = Rational(1, 10);
-  const ExactProblem shadow = Contacts({kSmooth, kSmooth, kSmooth}, {{1, tenth, 0}, {tenth, 1, tenth}, {0, tenth, 1}},
-                                       {Number("-2.3e-5"), Number("5e5"), Number("-3.7e7")});
+  const ExactProblem shadow =
+      Contacts({kSmooth, kSmooth, kSmooth}, {{1, tenth, 0}, {tenth, 1, tenth}, {0, tenth, 1}},
+               {Number("-2.3e-5"), Number("5e5"), Number("-3.7e7")});
   CHECK(GateOf(shadow, Eigen::Vector3d(0, 0, 3.7e7 - 1e-9)) > 0.9);
   for (const char* method : {"complete", "lemke", "baraff", "fast", "auto"}) {
     CAPTURE(method);
@@ -192,8 +197,9 @@ TEST_CASE("gate: a contact that parts holds up nothing, by friction or by many s
   const double small = 0.999 * kEps;
   std::vector<Rational> b(n + 1, 10);
   b[0] = -1;
-  const ExactProblem many = Contacts(std::vector<Contact<Rational>>(n + 1, kSmooth),
-                                     std::vector<std::vector<Rational>>(n + 1, std::vector<Rational>(n + 1, 1)), b);
+  const ExactProblem many =
+      Contacts(std::vector<Contact<Rational>>(n + 1, kSmooth),
+               std::vector<std::vector<Rational>>(n + 1, std::vector<Rational>(n + 1, 1)), b);
   Eigen::VectorXd f = Eigen::VectorXd::Constant(n + 1, small);
   f[0] = 1 - n * small;
   CHECK(GateOf(many, f) > 50 * kEps);
@@ -214,9 +220,9 @@ TEST_CASE("gate: no friction is lent by a normal force that is zero, or by one t
 
 TEST_CASE("gate: over float a stack does not sink, and what is right to the last digit passes") {
   const int n = 50;
-  ExactProblem stack = Contacts(std::vector<Contact<Rational>>(n, kSmooth),
-                                std::vector<std::vector<Rational>>(n, std::vector<Rational>(n, 0)),
-                                std::vector<Rational>(n, 0));
+  ExactProblem stack =
+      Contacts(std::vector<Contact<Rational>>(n, kSmooth),
+               std::vector<std::vector<Rational>>(n, std::vector<Rational>(n, 0)), std::vector<Rational>(n, 0));
   for (int i = 0; i < n; ++i) {
     stack.A(i, i) = i == 0 ? 1 : 2;
     if (i > 0) stack.A(i, i - 1) = stack.A(i - 1, i) = -1;
@@ -342,10 +348,12 @@ TEST_CASE("gate: a number that is not finite, and rounding beyond the bound, are
   for (const double size : {0x1p-1070, 0x1p-600, 0x1p600, 0x1p900}) {  // products that leave the range
     ContactProblem<double> scaled = As<double>(MakeProblem({1}, {{2, 0}, {0, 3}}, {-4, 0}));
     scaled.b *= size;
-    CHECK(BoundErrors(scaled, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(2 * size, 0)), GateOf<double>())
+    CHECK(BoundErrors(scaled, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(2 * size, 0)),
+                      GateOf<double>())
               .Largest() < 1e-15);
-    CHECK(BoundErrors(scaled, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(size, 0)), GateOf<double>())
-              .Largest() == Approx(0.5));
+    CHECK(
+        BoundErrors(scaled, FrictionLaw::kCoulomb, Eigen::VectorXd(Eigen::Vector2d(size, 0)), GateOf<double>())
+            .Largest() == Approx(0.5));
   }
 }
 
