@@ -15,9 +15,9 @@
 //   refused    a number of the problem is not one of the arithmetic's; not a run
 //   runs       all others; each ends in one of the outcomes below
 //   solved     called so
-//   wrong      a condition of the law that a solved answer names is missed by more than kSolvedResidual, times
-//              1 + 2^-30, in units of what acts there, or at all by rationals; or forces are missing; or
-//              rationals find no solution where there is one
+//   wrong      a solved answer is exact for no b, mu and A within eps and tau, by the law that it names, or
+//              breaks a condition at all by rationals; or forces are missing; or rationals find no solution
+//              where there is one
 //   undecided  called so: no answer
 //   other      ray, cycle, stall, singular, limit, no-solution
 //

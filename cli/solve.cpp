@@ -86,7 +86,7 @@ std::string SolvedSentence(const Json& result, const Solution& solution) {
   const Errors<double>& errors = *std::get<InexactAnswer>(solution.answer).errors;
   return fmt::format(
       "solved: these forces meet every condition, {}, but for errors of at most {:.2g} in accelerations and "
-      "{:.2g} in forces, in units of what acts at each contact",
+      "{:.2g} in forces: they are exact where b and mu differ by so much, and A by eight roundings",
       law, errors.acceleration, errors.force);
 }
 
@@ -293,11 +293,13 @@ const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
                  "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
   verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
-  verb.Option("--residual", o.options.residual, "largest error of inexact forces called solved")
+  verb.Option("--residual", o.options.residual,
+              "by how much b and mu may differ where inexact forces are called solved")
       .Range(0, 1)
       .Details(
-          "Of accelerations and of forces, in units of what acts at each contact. 0, the default: 1e-6 over "
-          "float, 1e-8 over wider numbers.");
+          "Relative, entry by entry, and A by eight roundings: the forces are exact for such b, mu and A. 0, "
+          "the "
+          "default: 1e-5 over float, 1e-8 over wider numbers.");
   verb.Option("--seconds", o.seconds, "after so long the best forces so far are told, undecided; 0: never")
       .Range(0, 1e9);
   verb.Flag("--fractions", o.fractions,

@@ -170,8 +170,10 @@ const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
   verb.footer =
-      "The error is the largest of any acceleration or force, by Coulomb's law, in units of what acts at its "
-      "contact: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned doubles, "
+      "The error says by how much b and mu must change for the forces to be exact, by Coulomb's law, beside "
+      "eight "
+      "roundings of A: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned "
+      "doubles, "
       "evaluated over rationals on the matrix of the problem. A - A' and the distance of b from the range of A "
       "are relative; `rough` is an estimate of the latter, the others are bounds. Witnesses of what fails: "
       "`certify FILE --claim psd` or `--claim in-range`.";

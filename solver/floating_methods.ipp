@@ -48,7 +48,8 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOpt
 
 // Where masses or jams are beyond what pivots of this scalar tell apart, proximal points may still be found.
 template <class Scalar>
-Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>* trace) {
+Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                       Trace<Scalar>* trace) {
   FastSolver<Scalar> solver({options.tolerances, options.limits, AimOf<Scalar>(options)});
   auto answer = AnswerOf<Scalar>(solver.Run(problem));
   answer.f = solver.f();

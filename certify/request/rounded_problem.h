@@ -47,7 +47,9 @@ class RoundedProblem {
 
   // An exact answer in these numbers: its forces are rounded, and judged.
   InexactAnswer Told(const ExactAnswer& exact, Arithmetic arithmetic, double bound) const {
-    const auto convert = [](const Rational& x) { return static_cast<double>(static_cast<Scalar>(ToDouble(x))); };
+    const auto convert = [](const Rational& x) {
+      return static_cast<double>(static_cast<Scalar>(ToDouble(x)));
+    };
     InexactAnswer told;
     told.outcome = exact.outcome;
     told.reason = exact.reason;

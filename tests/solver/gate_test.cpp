@@ -21,7 +21,7 @@ namespace {
 
 using namespace testing;
 
-double GateOf(const ExactProblem& problem, const Eigen::VectorXd& f) {
+double ErrorAt(const ExactProblem& problem, const Eigen::VectorXd& f) {
   return BoundErrors(Rounded<double>(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
 }
 constexpr double kEps = 1e-8;
@@ -110,8 +110,8 @@ TEST_CASE("gate: a light contact does not blind it to a heavy one, far apart or 
     for (auto& x : heavy.A.reshaped()) x = Rational(ToDouble(x) * std::ldexp(1.0, -exponent));
     for (const Rational& coupling : {Rational(0), Rational(std::ldexp(1.0, -exponent - 2))}) {
       const ExactProblem both = SideBySide(rests, heavy, coupling);
-      CHECK(GateOf(both, Eigen::Vector4d(2, 0, 0, 0)) > 0.25);  // the heavy one falls
-      if (coupling == 0) CHECK(GateOf(both, Eigen::Vector4d(2, 0, std::ldexp(2.0, exponent), 0)) < 1e-15);
+      CHECK(ErrorAt(both, Eigen::Vector4d(2, 0, 0, 0)) > 0.25);  // the heavy one falls
+      if (coupling == 0) CHECK(ErrorAt(both, Eigen::Vector4d(2, 0, std::ldexp(2.0, exponent), 0)) < 1e-15);
       const Answer<double> answer = Solve(Rounded<double>(both));
       CHECK(answer.Solved());
       CHECK(answer.f[2] == Approx(std::ldexp(2.0, exponent)).epsilon(1e-3 + 0.5 * (coupling != 0)));
@@ -144,8 +144,8 @@ TEST_CASE("gate: whatever mu is, free fall is no solution, and rest is one") {
 TEST_CASE("gate: forces that only press against each other lend eight of their roundings") {
   for (const double jam : {4.0, 1e6, 1e12}) {
     CAPTURE(jam);
-    CHECK(GateOf(Jam(4), Eigen::Vector4d(jam, 0, jam, 0)) > 0.5);  // friction of 1 N each would hold it
-    CHECK((GateOf(Jam(4), Eigen::Vector4d(1 + jam, 1, 1 + jam, 1)) < kEps));
+    CHECK(ErrorAt(Jam(4), Eigen::Vector4d(jam, 0, jam, 0)) > 0.5);  // friction of 1 N each would hold it
+    CHECK((ErrorAt(Jam(4), Eigen::Vector4d(1 + jam, 1, 1 + jam, 1)) < kEps));
   }
   const Errors<double> errors = BoundErrors(Rounded<double>(Jam(4)), FrictionLaw::kCoulomb,
                                             Eigen::VectorXd(Eigen::Vector4d(1e6, 1, 1e6, 1)), GateOf<double>());
@@ -175,7 +175,7 @@ TEST_CASE("gate: a neighbour without force, however heavily loaded, does not hol
   const ExactProblem shadow =
       Contacts({kSmooth, kSmooth, kSmooth}, {{1, tenth, 0}, {tenth, 1, tenth}, {0, tenth, 1}},
                {Number("-2.3e-5"), Number("5e5"), Number("-3.7e7")});
-  CHECK(GateOf(shadow, Eigen::Vector3d(0, 0, 3.7e7 - 1e-9)) > 0.9);
+  CHECK(ErrorAt(shadow, Eigen::Vector3d(0, 0, 3.7e7 - 1e-9)) > 0.9);
   for (const char* method : {"complete", "lemke", "baraff", "fast", "auto"}) {
     CAPTURE(method);
     const Answer<double> answer = Solve(Rounded<double>(shadow), method);
@@ -187,12 +187,12 @@ TEST_CASE("gate: a neighbour without force, however heavily loaded, does not hol
 TEST_CASE("gate: a contact that parts holds up nothing, by friction or by many small forces") {
   const ExactProblem feather =
       Contacts({Sliding(1), kSmooth}, {{1, 0, 0}, {0, 1, -1}, {0, -1, 1}}, {Number("1e9"), 0, -9});
-  CHECK(GateOf(feather, Eigen::Vector3d(9, -9, 0)) > 0.1);
-  CHECK(GateOf(feather, Eigen::Vector3d(0, 0, 9)) < 1e-15);
+  CHECK(ErrorAt(feather, Eigen::Vector3d(9, -9, 0)) > 0.1);
+  CHECK(ErrorAt(feather, Eigen::Vector3d(0, 0, 9)) < 1e-15);
   const ExactProblem pulled =
       Contacts({Sliding(1), kSmooth, kSmooth}, {{1, 0, 1, 0}, {0, 1, 0, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}},
                {Number("-1e9"), 0, Number("-1e9"), -8});
-  CHECK(GateOf(pulled, Eigen::Vector4d(-8, 8, 1e9 + 8, 0)) > 0.1);
+  CHECK(ErrorAt(pulled, Eigen::Vector4d(-8, 8, 1e9 + 8, 0)) > 0.1);
   const int n = 100;  // on one body, each within what no row notices
   const double small = 0.999 * kEps;
   std::vector<Rational> b(n + 1, 10);
@@ -202,19 +202,19 @@ TEST_CASE("gate: a contact that parts holds up nothing, by friction or by many s
                std::vector<std::vector<Rational>>(n + 1, std::vector<Rational>(n + 1, 1)), b);
   Eigen::VectorXd f = Eigen::VectorXd::Constant(n + 1, small);
   f[0] = 1 - n * small;
-  CHECK(GateOf(many, f) > 50 * kEps);
+  CHECK(ErrorAt(many, f) > 50 * kEps);
 }
 
 TEST_CASE("gate: no friction is lent by a normal force that is zero, or by one that does not reach its row") {
   const ExactProblem steep = Contacts({Static(Number("1e12"))}, {{1, 100}, {100, 10001}}, {-100, 0});
-  CHECK(GateOf(steep, Eigen::Vector2d(0, 1)) > 0.1);
+  CHECK(ErrorAt(steep, Eigen::Vector2d(0, 1)) > 0.1);
   CHECK(Solve(Rounded<double>(steep)).Solved());
   for (const double press : {1e3, 1e9, 7e13}) {  // between two walls; friction carries nearly all of the weight
     CAPTURE(press);
     const ExactProblem clamped =
         Contacts({Static(1), kSmooth}, {{1, 0, -1}, {0, 1, 0}, {-1, 0, 1}}, {0, -1, 0});
-    CHECK(GateOf(clamped, Eigen::Vector3d(press, 1 - 1e-7, press)) > 5 * kEps);
-    CHECK(GateOf(clamped, Eigen::Vector3d(press, 1, press)) < 1e-15);
+    CHECK(ErrorAt(clamped, Eigen::Vector3d(press, 1 - 1e-7, press)) > 5 * kEps);
+    CHECK(ErrorAt(clamped, Eigen::Vector3d(press, 1, press)) < 1e-15);
   }
 }
 
@@ -250,7 +250,7 @@ TEST_CASE("gate: exact solutions, rounded, pass with room") {
       const ExactAnswer answer = SolveExactly(problem, {.method = "complete"});
       if (answer.outcome != Outcome::kSolved) continue;
       const Eigen::VectorXd f = answer.f.unaryExpr([](const Rational& x) { return ToDouble(x); });
-      CHECK(GateOf(problem, f) < kEps / 2);
+      CHECK(ErrorAt(problem, f) < kEps / 2);
       ++solved;
     }
   }
@@ -279,7 +279,7 @@ TEST_CASE("gate: noise that methods leave is taken away before it asks") {
       answer.f[2 * i] = 10 * (n - i) * (1 + 1e-12 * static_cast<double>(choices.Integer(-4, 4)));
       answer.f[2 * i + 1] = -(n - i) * (1 + 1e-12 * static_cast<double>(choices.Integer(-4, 4)));
     }
-    refused += GateOf(stack, answer.f) > kEps;
+    refused += ErrorAt(stack, answer.f) > kEps;
     JudgeAnswer(problem, kEps, answer);
     CHECK(answer.Solved());
     ++tried;
