@@ -308,7 +308,9 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string ValueText(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string ValueText(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : JsonText(value);
+}
 
 std::string ValuesText(const Json& values) {
   std::string text;

@@ -161,8 +161,8 @@ Json GraveToJson(const SearchedStore& s) {
 Json SimplestToJson(const SearchedStore& s) {
   Json simplest = Json::array();
   for (const Finding& finding : s.totals.simplest)
-    simplest.push_back(
-        {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
+    simplest.push_back({{"signature", finding.signature},
+                        {"facts", ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded)}});
   return simplest;
 }
 
@@ -263,9 +263,7 @@ Json SummaryToJson(const Store& store) {
     WriteTold<O>(kOptimizedMembers,
                  {store, std::move(campaign), YieldOf(store), KeptOf(store), store.TotalWork()}, summary);
   }
-  try {
-    summary.dump();
-  } catch (const Json::exception&) {
+  if (!IsUtf8(summary)) {
     throw InputError(
         "summary: found a signature or another text of the store that is no UTF-8, which JSON asks for");
   }

@@ -187,7 +187,7 @@ std::string Serialize(const Record& record) {
                                                         {"friction", key.friction},
                                                         {"rank", key.rank},
                                                         {"spread", key.spread}}));
-  return json.dump();
+  return JsonText(json);
 }
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -328,7 +328,7 @@ TallyKey ReadKey(const JsonPlace& place) {
 }  // namespace
 
 Record ParseRecord(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source);
+  const Json json = ParseJson(text, source, TinyNumbers::kRounded);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words", "under_test"});

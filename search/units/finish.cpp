@@ -180,7 +180,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   const Json grid = GridCounts(small, limits, cancelled);
   if (cancelled()) return;
   const bool whole = IsWhole(grid, outcome);
-  finding.minimized = ToJson(Describe(small, finding, policy, whole, found.has_scene)).dump();
+  finding.minimized = JsonText(ToJson(Describe(small, finding, policy, whole, found.has_scene)));
   if (outcome == Outcome::kCycle) {
     const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
     finding.minimized_certificate = Checked(CycleCertificate(small, certified, limits), finding.signature);
@@ -213,7 +213,8 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
   finished.done = true;
   const PublishedOptions options{ParsePolicy(finding.policy), {}, limits};
   const InexactAnswer answer = methods.published_in_space(problem, options);
-  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
+  Json facts = finding.facts.empty() ? Json::object()
+                                     : ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
   finished.existence = ExistenceInSpace(problem, finding.signature, limits);
   const bool loops = answer.outcome == Outcome::kCycle;
   if (loops) finished.certificate = LoopInSpaceOf(problem, options, finding.signature);
@@ -228,7 +229,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     what.limits = limits;
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;
-    finished.minimized = ToJson(Describe(small, finding, options.policy, false, false)).dump();
+    finished.minimized = JsonText(ToJson(Describe(small, finding, options.policy, false, false)));
     if (loops) finished.minimized_certificate = LoopInSpaceOf(small, options, finding.signature);
     if (finished.minimized_certificate.empty())
       finished.certificate.clear();  // it would speak of another problem
@@ -236,7 +237,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     facts["minimized"] =
         FactsInSpace(small, methods.published_in_space(small, options), finished.minimized_existence);
   }
-  finished.facts = facts.dump();
+  finished.facts = JsonText(facts);
   return cancelled() ? std::nullopt : std::optional(finished);
 }
 
@@ -251,7 +252,8 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   Finding finished = finding;
   finished.done = true;
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);
-  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
+  Json facts = finding.facts.empty() ? Json::object()
+                                     : ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
   CertifyFound(finished, facts, found, limits, cancelled);
   if (!cancelled()) CompareMethods(finished, facts, found, limits);
   if (!cancelled()) {
@@ -263,7 +265,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
       found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods;
   if (minimize && !cancelled()) MinimizeFound(finished, facts, found, limits, cancelled);
   if (cancelled()) return std::nullopt;
-  finished.facts = facts.dump();
+  finished.facts = JsonText(facts);
   return finished;
 }
 
