@@ -153,7 +153,7 @@ std::string NightLog::Line(const SearchProgress& progress) const {
 
 Json ToJson(const Finding& finding) {
   const auto embedded = [&finding](const std::string& text) {
-    return text.empty() ? Json() : ParseJson(text, finding.signature, TinyNumbers::kRounded);
+    return text.empty() ? Json() : ParseJson(text, finding.signature);
   };
   return {{"signature", finding.signature},
           {"kind", finding.kind},

@@ -422,7 +422,7 @@ ProblemFile StoredFile(const ProblemVerb& o) {
 ProblemFile SceneFileOf(const ProblemVerb& o) {
   const std::string source = o.store + ":" + o.unit;
   const auto named = FindNamed(source);
-  const Json facts = named ? ParseJson(named->finding.facts, source, TinyNumbers::kRounded) : Json();
+  const Json facts = named ? ParseJson(named->finding.facts, source) : Json();
   if (!facts.contains("scene"))
     throw InputError(
         source +

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -18,20 +17,15 @@ template class nlohmann::basic_json<nlohmann::ordered_map>;
 namespace stiction {
 namespace {
 
-// Whether the literal lies below the normal doubles and is none of the doubles there, so that the nearest one
-// has lost digits of it, or all of them.
-bool IsLostBelow(double value, const std::string& literal) {
-  if (std::abs(value) >= std::numeric_limits<double>::min()) return false;
-  const std::string_view digits = std::string_view(literal).substr(0, literal.find_first_of("eE"));
-  if (digits.find_first_of("123456789") == digits.npos) return false;  // zero
-  const auto exact = ParseRational(literal);  // empty where its exponent is beyond all limits
-  return !exact || *exact != Rational(value);
+// Of a number's literal.
+bool IsNotZero(std::string_view literal) {
+  return literal.substr(0, literal.find_first_of("eE")).find_first_of("123456789") != literal.npos;
 }
 
 // Builds the document from the parser's events, so that every key and number literal is seen.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
-  DocumentBuilder(const std::string& source, TinyNumbers tiny) : source_(source), tiny_(tiny) {}
+  explicit DocumentBuilder(const std::string& source) : source_(source) {}
 
   Json TakeDocument() { return std::move(document_); }
 
@@ -51,10 +45,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     if (literal.find_first_not_of("-0123456789") == literal.npos && Rational(literal, 10) != Rational(value)) {
       Refuse(PathOfNext(), Shortened(literal), "an integer that is a double exactly, or a string");
     }
-    if (tiny_ == TinyNumbers::kRefused && IsLostBelow(value, literal)) {
-      Refuse(PathOfNext(), Shortened(literal) + ", which no double holds",
-             fmt::format("a number of magnitude {} or more, or 0; as a string, \"{}\", it is exact",
-                         std::numeric_limits<double>::min(), Shortened(literal)));
+    if (value == 0 && IsNotZero(literal)) {
+      Refuse(PathOfNext(), Shortened(literal) + ", which is no double but 0",
+             fmt::format("a number in the range of doubles; as a string, \"{}\", it is exact",
+                         Shortened(literal)));
     }
     return Add(value);
   }
@@ -140,7 +134,6 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   }
 
   const std::string& source_;
-  TinyNumbers tiny_;
   Json document_;
   std::vector<Frame> frames_;
 };
@@ -178,12 +171,12 @@ bool IsWord(const std::string& key) {
 
 }  // namespace
 
-Json ParseJson(std::string_view text, const std::string& source, TinyNumbers tiny) {
+Json ParseJson(std::string_view text, const std::string& source) {
   RefuseNul(text, source);
   if (text.starts_with("\xEF\xBB\xBF")) {
     throw InputError(source, "line 1, column 1", "a byte order mark", "JSON text");
   }
-  DocumentBuilder builder(source, tiny);
+  DocumentBuilder builder(source);
   const bool parsed = Json::sax_parse(text.begin(), text.end(), &builder);
   STICTION_CHECK(parsed, "the JSON parser stopped without an error");
   return builder.TakeDocument();
@@ -204,6 +197,11 @@ bool IsUtf8(const Json& value) {
   } catch (const Json::exception&) {
     return false;
   }
+}
+
+void RequireWritable(const Json& value) {
+  STICTION_CHECK(IsFinite(value), "a number that is not finite is not written to a file");
+  STICTION_CHECK(IsUtf8(value), "text that is no UTF-8 is not written to a file");
 }
 
 std::string Shortened(const std::string& text, std::size_t most) {

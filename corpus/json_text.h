@@ -27,16 +27,11 @@ using Json = nlohmann::ordered_json;
 // Arrays and objects within each other, the document included.
 inline constexpr std::size_t kMaxJsonDepth = 100;
 
-// Numbers below the normal doubles, 2.2e-308, that are no double themselves: the nearest double has lost digits
-// of them, and is 0 below 2.5e-324. Refused where people write; rounded in what programs print of their
-// doubles.
-enum class TinyNumbers { kRefused, kRounded };
-
 // The document; `source` names the text in errors. Syntax errors come with line and column (in bytes),
 // everything else with its JSON path. Integers of 64 bits are kept as they are; a longer one is refused
 // unless it is a double exactly. Other numbers become the nearest double; one that is too large is refused, and
-// as a rule one that is too small.
-Json ParseJson(std::string_view text, const std::string& source, TinyNumbers tiny = TinyNumbers::kRefused);
+// one that is not 0 and would become 0.
+Json ParseJson(std::string_view text, const std::string& source);
 
 // The bytes of a file; InputError if it cannot be read.
 std::string ReadText(const std::filesystem::path& file);
@@ -48,6 +43,8 @@ std::string JsonText(const Json& value, int indent = -1);
 
 // Whether all text in it is, a string's own included.
 bool IsUtf8(const Json& value);
+// Of what is read again: InternalError where its text would say something else.
+void RequireWritable(const Json& value);
 
 // `value` on one line, cut if it is long: for messages only.
 std::string Shown(const Json& value);

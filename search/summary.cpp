@@ -161,8 +161,8 @@ Json GraveToJson(const SearchedStore& s) {
 Json SimplestToJson(const SearchedStore& s) {
   Json simplest = Json::array();
   for (const Finding& finding : s.totals.simplest)
-    simplest.push_back({{"signature", finding.signature},
-                        {"facts", ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded)}});
+    simplest.push_back(
+        {{"signature", finding.signature}, {"facts", ParseJson(finding.facts, finding.signature)}});
   return simplest;
 }
 

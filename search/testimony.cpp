@@ -106,7 +106,7 @@ void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
 // Of a solver under test.
 void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has_minimized) {
   const std::string source = witness.place() + ": facts";
-  const Json json = ParseJson(finding.facts, source, TinyNumbers::kRounded);
+  const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"library", "found", "minimized", "alone", "scene"});
@@ -131,7 +131,7 @@ void RequireFacts(const Witness& witness, const Finding& finding, const ExactPro
   if (finding.facts.empty())
     return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
   const std::string source = witness.place() + ": facts";
-  const Json json = ParseJson(finding.facts, source, TinyNumbers::kRounded);
+  const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"found", "minimized", "disagreement", "answers", "ipopt"});

@@ -144,7 +144,7 @@ std::optional<IpoptProposer::Point> IpoptProposer::Ask(const std::string& reques
 }
 
 IpoptProposer::Point IpoptProposer::ReadPoint(const std::string& text, ProposalStatistics& statistics) const {
-  const Json json = ParseJson(text, program_.string(), TinyNumbers::kRounded);
+  const Json json = ParseJson(text, program_.string());
   STICTION_CHECK(json.value("status", "") != "refused", "stiction-ipopt refused: " + Shown(json));
   Point point;
   try {

@@ -9,6 +9,7 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -561,6 +562,7 @@ std::string PrintedValue(const std::string& key, const Json& value) {
 }
 
 std::string PrintFile(const Json& json) {
+  RequireWritable(json);
   std::string text = "{";
   for (const auto& member : json.items()) {
     const bool same_line = member.key() == "version" || member.key() == "dimension";
@@ -590,6 +592,12 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
     place.Refuse(fmt::format("a number of at most {} characters", kMostCharactersOfNumber));
   }
   if (!strict || json.is_string()) x = ExactValue(json);
+  const bool is_tiny = json.is_number_float() && std::fpclassify(json.get<double>()) == FP_SUBNORMAL;
+  if (!strict && is_tiny) {
+    place.Refuse(fmt::format("{}, where doubles have fewer digits", Shown(json)),
+                 fmt::format("a number of magnitude {} or more; as a string it is exact",
+                             std::numeric_limits<double>::min()));
+  }
   if (x.has_value()) return *std::move(x);
   if (!strict && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");
   place.Refuse(std::string(strict ? "an exact number as a string" : "a number") +

@@ -369,6 +369,7 @@ template Json ToJson(const SceneFileInSpace&);
 template <class Kind>
 std::string Print(const SceneFileIn<Kind>& file) {
   const Json json = ToJson(file);
+  RequireWritable(json);
   std::string text = "{";
   for (const auto& [key, value] : json.items()) {
     text += (text == "{" ? "\n  " : ",\n  ") + JsonText(key) + ": ";

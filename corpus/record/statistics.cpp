@@ -328,7 +328,7 @@ TallyKey ReadKey(const JsonPlace& place) {
 }  // namespace
 
 Record ParseRecord(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source, TinyNumbers::kRounded);
+  const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words", "under_test"});

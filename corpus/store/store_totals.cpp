@@ -64,7 +64,7 @@ std::int64_t StoreTotals::LoopGroups() const {
 
 Json MinimizedFacts(const Finding& finding) {
   const std::string source = "facts of " + finding.signature;
-  const Json facts = ParseJson(finding.facts, source, TinyNumbers::kRounded);
+  const Json facts = ParseJson(finding.facts, source);
   const JsonPlace minimized =
       JsonPlace(facts, source, "").Required("minimized", "those of the minimized problem");
   minimized.Required("grid", "outcomes over the policy grid").RequireObject();

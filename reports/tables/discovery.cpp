@@ -53,7 +53,7 @@ RunFacts ReadRun(const JsonPlace& facts) {
 void AddFacts(Discovery& discovery, const Finding& finding) {
   if (finding.facts.empty()) return;
   const std::string source = "facts of " + finding.signature;
-  const Json json = ParseJson(finding.facts, source, TinyNumbers::kRounded);
+  const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   if (const auto found = root.Optional("found")) discovery.found = ReadRun(*found);

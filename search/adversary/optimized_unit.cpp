@@ -88,7 +88,7 @@ std::string ToText(const UnitElites& unit) {
 }
 
 UnitElites ElitesFromText(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source, TinyNumbers::kRounded);
+  const Json json = ParseJson(text, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
   root.AllowKeys({"elites", "evaluations", "confirmations", "denied"});

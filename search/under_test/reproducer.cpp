@@ -354,7 +354,7 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
                     finding.signature));
   RequireLawOf(name, finding, solver);
   const ProblemShown posed = ShownOf(finding, solver.law);
-  const Json facts = ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
+  const Json facts = ParseJson(finding.facts, finding.signature);
   const bool is_library = facts.value("library", true);
   if (name == "c" && !is_library)
     throw InputError(finding.signature + ": found a finding of a program, expected python for its reproducer");

@@ -146,7 +146,7 @@ std::string FailuresText(const UnderTestTally& tally) {
 }
 
 std::string GroupText(const Finding& finding, std::int64_t count) {
-  const Json facts = ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
+  const Json facts = ParseJson(finding.facts, finding.signature);
   std::string text = fmt::format("  {:44} {} times", finding.signature, Grouped(count));
   if (facts.contains("minimized")) {
     const int contacts = facts["minimized"]["contacts"].get<int>();
@@ -225,7 +225,7 @@ Json GroupsToJson(const Store& store) {
     groups.push_back({{"signature", finding.signature},
                       {"kind", finding.kind},
                       {"count", signatures.at(finding.signature)},
-                      {"facts", ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded)}});
+                      {"facts", ParseJson(finding.facts, finding.signature)}});
   }
   return groups;
 }

@@ -262,7 +262,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   finished.done = true;
   const ExactProblem problem = ParseProblem(finding.problem, finding.signature).problem;
   const SolverLaw law = campaign.solver.law;
-  Json facts = ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
+  Json facts = ParseJson(finding.facts, finding.signature);
   std::int64_t leak = 0;
   // In a process that has seen no other problem.
   const auto alone = [&](const ExactProblem& tried) {

@@ -213,8 +213,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
   finished.done = true;
   const PublishedOptions options{ParsePolicy(finding.policy), {}, limits};
   const InexactAnswer answer = methods.published_in_space(problem, options);
-  Json facts = finding.facts.empty() ? Json::object()
-                                     : ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
+  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   finished.existence = ExistenceInSpace(problem, finding.signature, limits);
   const bool loops = answer.outcome == Outcome::kCycle;
   if (loops) finished.certificate = LoopInSpaceOf(problem, options, finding.signature);
@@ -252,8 +251,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   Finding finished = finding;
   finished.done = true;
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);
-  Json facts = finding.facts.empty() ? Json::object()
-                                     : ParseJson(finding.facts, finding.signature, TinyNumbers::kRounded);
+  Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   CertifyFound(finished, facts, found, limits, cancelled);
   if (!cancelled()) CompareMethods(finished, facts, found, limits);
   if (!cancelled()) {
