@@ -79,6 +79,7 @@ std::string WithinText(const Json& result) {
 }
 
 std::string SolvedSentence(const Json& result, const Solution& solution) {
+  if (result["f"].empty()) return "solved: there are no contacts, and no forces are asked for";
   const std::string law = LawOf(result);
   if (result.contains("bound")) return WithinText(result);
   if (std::holds_alternative<ExactAnswer>(solution.answer))

@@ -20,7 +20,7 @@ using Matrix = ExactProblem::Matrix;
 
 // [M | R] becomes [I | inv(M) R] without exchanges of rows, R by rows; false where a pivot is not > 0. M is
 // definite if all pivots are.
-bool Eliminate(Matrix& M, Matrix& R) {
+bool EliminateRows(Matrix& M, Matrix& R) {
   const int size = static_cast<int>(M.rows());
   for (int k = 0; k < size; ++k) {
     StopReading::Check();
@@ -40,7 +40,7 @@ bool Eliminate(Matrix& M, Matrix& R) {
 
 // D M D over doubles, with powers of two in D that bring the diagonal between 1/2 and 4. Empty where a diagonal
 // is not > 0, or no double.
-std::optional<Eigen::MatrixXd> Scaled(const Matrix& M) {
+std::optional<Eigen::MatrixXd> InScaledDoubles(const Matrix& M) {
   const int size = static_cast<int>(M.rows());
   std::vector<Rational> scale;
   for (int i = 0; i < size; ++i) {
@@ -80,12 +80,12 @@ std::optional<Matrix> InverseOfDefinite(const Matrix& M) {
   const auto size = M.rows();
   Matrix rest = M, W = Matrix::Constant(size, size, Rational(0));
   for (int i = 0; i < size; ++i) W(i, i) = 1;
-  if (!Eliminate(rest, W)) return std::nullopt;
+  if (!EliminateRows(rest, W)) return std::nullopt;
   return W;
 }
 
 bool IsDefinite(const Matrix& M) {
-  const auto scaled = Scaled(M);
+  const auto scaled = InScaledDoubles(M);
   if (scaled && IsProvedDefinite(*scaled)) return true;
   for (int i = 0; i < M.rows(); ++i) {
     if (M(i, i) <= 0) return false;
@@ -93,14 +93,14 @@ bool IsDefinite(const Matrix& M) {
   const Eigen::MatrixXd rounded = M.unaryExpr(&ToDouble);
   if (rounded.allFinite() && IsProvedIndefinite(M, rounded)) return false;
   Matrix rest = M, none(M.rows(), 0);
-  return Eliminate(rest, none);
+  return EliminateRows(rest, none);
 }
 
 #ifdef STICTION_BOOST_RATIONALS
 
 Matrix SolveDefinite(const Matrix& M, const Matrix& B) {
   Matrix rest = M, X = B;
-  STICTION_CHECK(Eliminate(rest, X), "a block of masses that is not definite");
+  STICTION_CHECK(EliminateRows(rest, X), "a block of masses that is not definite");
   return X;
 }
 

@@ -115,7 +115,7 @@ bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
   finding.problem = JsonText(ToJson(FileOf(campaign_, unit_, place.index, problem)));
-  if (facts != nullptr) finding.facts = facts->dump();
+  if (facts != nullptr) finding.facts = JsonText(*facts);
   result_.candidates.push_back(std::move(finding));
   return true;
 }

@@ -132,6 +132,19 @@ class Readers(cli.TestCase):
 
     # ---- Time ------------------------------------------------------------------------------------------------
 
+    def test_a_store_with_times_below_zero_is_read_and_goes_on(self):
+        store = self.folder / "a.store"
+        search = ["search", "--store", store, "-g", "integers", "-c", "2", "--seed", "7"]
+        self.succeeds(*search, "--problems", "200")
+        before = cli.content(store)["work"]
+        times = json.dumps({name: -5 for name in ("generation", "doubles", "filtered", "exact", "compared", "finishing")})
+        self.assertGreater(cli.change(store, "UPDATE work SET time = ?", (times,)), 0)
+        self.assertNotEqual(cli.content(store)["work"], before)
+        self.succeeds("report", store, "-o", self.folder / "r", "--json")
+        self.succeeds("status", store)
+        self.succeeds("merge", self.folder / "b.store", store)
+        self.succeeds(*search, "--problems", "400")
+
     def seconds_of(self, *arguments, code):
         """Of the processor."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
