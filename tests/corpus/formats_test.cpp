@@ -284,7 +284,7 @@ TEST_CASE("Siconos: behind the last number may stand a flag, and below an empty 
       read.origin.erase("remark");
       CheckEqual(read, problem);
     }
-    const std::string line = text == lcp ? "line 5" : text == friction ? "line 6" : "line 8";
+    const std::string line = text == lcp ? "line 5" : text == friction ? "line 6" : "line 9";
     for (const std::string rest : {"garbage", "1 solved", "# a remark", "4.4.7 CPS", "x 0 1", "\xff"}) {
       CAPTURE(text, rest);
       CHECK_THROWS_WITH(Parse(text + rest), Contains("file: " + line + ": found text, from '") &&

@@ -379,10 +379,10 @@ TEST_CASE("problem file: A of a large block of masses is J inv(M) J', exactly, a
     const auto inverse = InverseOfDefinite(ExactProblem::Matrix(file.factors->M.toDense()));
     REQUIRE(inverse);
     const ExactProblem::Matrix J = file.factors->A.J().toDense();
-    CHECK(file.problem.A == J * *inverse * J.transpose());
+    CHECK((file.problem.A == J * *inverse * J.transpose()));
     const ExactProblem::Vector f = (ExactProblem::Vector(2) << Rational(3), Rational(-1, 7)).finished();
-    CHECK(file.factors->Responses(f) == *inverse * J.transpose() * f);
-    CHECK(file.factors->Accelerations(f) == file.problem.A * f + file.problem.b);
+    CHECK((file.factors->Responses(f) == *inverse * J.transpose() * f));
+    CHECK((file.factors->Accelerations(f) == file.problem.A * f + file.problem.b));
     CHECK(file.factors->A.W().nonZeros() == (size > kMostWholeInverse ? 0 : size * size));
     const FactoredProblem<double> rounded = InDoubles(*file.factors);
     const Eigen::VectorXd moved = rounded.Responses(f.unaryExpr(&ToDouble));
@@ -416,10 +416,14 @@ TEST_CASE("problem file: a large block of masses is definite or refused, whateve
 }
 
 TEST_CASE("problem file: the exact arithmetic of reading ends when somebody says so") {
-  const std::atomic<bool> stopped = true;
-  const StopReading stop(stopped);
-  CHECK_THROWS_AS(ParseProblem(WithLargeBlock(20, "2"), "p.json"), ReadingStopped);
-  CHECK_NOTHROW(ParseProblem(kFactored, "p.json"));
+  const std::atomic<bool> stopped = true, goes_on = false;
+  {
+    const StopReading stop(stopped);
+    CHECK_THROWS_AS(ParseProblem(WithLargeBlock(20, "2"), "p.json"), ReadingStopped);
+    const StopReading inner(goes_on);
+    CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));
+  }
+  CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));
 }
 
 TEST_CASE("problem file: wrong keys of all levels are told at once") {
