@@ -93,7 +93,9 @@ class Readers(cli.TestCase):
                 self.assertEqual((code, out), (2, b""), (verb, file, err))
 
     def test_numbers_that_are_not_finite_are_words_in_json(self):
-        # Errors in units of what acts: nothing does.
+        unit = PROBLEMS / "zero-work-unit-inf.json"  # whose errors are infinite over doubles
+        for verb in ("survey", "explain"):
+            self.succeeds(verb, unit, "--json")
         file = self.file("huge.json", {"A": [["1e-300", "1e300"], ["-1e300", 0]], "b": ["-1e300", "1e-300"], "mu": 1})
         other = self.file("beyond.json", {"A": [["1e400", 0], [0, "1e-400"]], "b": ["-1e900", "1e-900"], "mu": "1e500"})
         for verb in ("survey", "explain", "solve"):
@@ -136,10 +138,8 @@ class Readers(cli.TestCase):
         store = self.folder / "a.store"
         search = ["search", "--store", store, "-g", "integers", "-c", "2", "--seed", "7"]
         self.succeeds(*search, "--problems", "200")
-        before = cli.content(store)["work"]
         times = json.dumps({name: -5 for name in ("generation", "doubles", "filtered", "exact", "compared", "finishing")})
         self.assertGreater(cli.change(store, "UPDATE work SET time = ?", (times,)), 0)
-        self.assertNotEqual(cli.content(store)["work"], before)
         self.succeeds("report", store, "-o", self.folder / "r", "--json")
         self.succeeds("status", store)
         self.succeeds("merge", self.folder / "b.store", store)

@@ -56,17 +56,19 @@ std::vector<Json> ContactLists(int dimension) {
     if (*mu != '\0') json["mu"] = mu;
     return json;
   };
-  std::vector<Json> lists = {Json::array(),
-                             {contact("bilateral", "")},
-                             {contact("frictionless", "")},
-                             {contact("bilateral", ""), contact("frictionless", "")},
-                             {contact("static", "1/2"), contact("static", "0")},
-                             {contact("bilateral", ""), contact("static", "1")}};
-  for (const char* mu : {"0", "1/2", "1e9", "1e-300", "inf"}) lists.push_back({contact("static", mu)});
   Json sliding = contact("sliding", "3");
-  sliding["slip"] = dimension == 2 ? Json("1") : Json{"3/5", "4/5"};
-  lists.push_back({sliding});
-  lists.push_back({sliding, contact("static", "1")});
+  sliding["slip"] = dimension == 2 ? Json("1") : Json::array({"3/5", "4/5"});
+  const Json bilateral = contact("bilateral", ""), frictionless = contact("frictionless", "");
+  std::vector<Json> lists = {Json::array(),
+                             Json::array({bilateral}),
+                             Json::array({frictionless}),
+                             Json::array({bilateral, frictionless}),
+                             Json::array({contact("static", "1/2"), contact("static", "0")}),
+                             Json::array({bilateral, contact("static", "1")}),
+                             Json::array({sliding}),
+                             Json::array({sliding, contact("static", "1")})};
+  for (const char* mu : {"0", "1/2", "1e9", "1e-300", "inf"})
+    lists.push_back(Json::array({contact("static", mu)}));
   return lists;
 }
 
@@ -88,7 +90,7 @@ Json InEntries(const Json& A) {
   Json entries = Json::array();
   for (std::size_t i = 0; i < A.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j)
-      if (A[i][j] != "0") entries.push_back({i, j, A[i][j]});
+      if (A[i][j] != "0") entries.push_back(Json::array({i, j, A[i][j]}));
   }
   return {{"size", A.size()}, {"entries", entries}};
 }
@@ -99,10 +101,13 @@ Json InFactors(const Rows& J, const Json& b) {
   Json entries = Json::array();
   for (std::size_t i = 0; i < J.size(); ++i) {
     for (std::size_t j = 0; j < columns; ++j)
-      if (J[i][j] != "0") entries.push_back({i, j, J[i][j]});
+      if (J[i][j] != "0") entries.push_back(Json::array({i, j, J[i][j]}));
   }
   const Json ones(columns, "1"), zeros(columns, "0");
-  return {{"J", {{"size", {J.size(), columns}}, {"entries", entries}}}, {"M", ones}, {"w", zeros}, {"c", b}};
+  return {{"J", {{"size", Json::array({J.size(), columns})}, {"entries", entries}}},
+          {"M", ones},
+          {"w", zeros},
+          {"c", b}};
 }
 
 void AddForms(Json problem, const Rows& J, const Json& b, std::vector<std::string>& texts) {
