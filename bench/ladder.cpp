@@ -324,7 +324,7 @@ Json Measure(const Source& source, const std::vector<LadderRow>& rows, std::int6
 
 std::string CsvText(const Json& cell) {
   if (cell.is_null()) return "";
-  return cell.is_string() ? cell.get<std::string>() : cell.dump();
+  return cell.is_string() ? cell.get<std::string>() : JsonText(cell);
 }
 
 // Arrays become columns: name_low, name_median, name_high of three, name_low, name_high of two.

@@ -203,7 +203,7 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
 // one.
 std::optional<TouchingScene> ReadTouchingScene(const CertifyOptions& o, const ProblemFile& file) {
   if (!file.scene) return std::nullopt;
-  const Scene<Rational> scene = ParseScene(file.scene->dump(), o.file + ": scene").scene;
+  const Scene<Rational> scene = ParseScene(JsonText(*file.scene), o.file + ": scene").scene;
   if (const auto unfit = UnfitForBox(scene))
     throw InputError(o.file, "scene." + unfit->path, unfit->found, unfit->expected + " (--robust)");
   TouchingScene touching = Touching(scene);
@@ -308,7 +308,9 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string ValueText(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string ValueText(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : JsonText(value);
+}
 
 std::string ValuesText(const Json& values) {
   std::string text;

@@ -132,15 +132,16 @@ void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const 
     Still& still = stills.emplace_back();
     for (const Json& f : pivot["f"])
       still.forces.push_back(f.is_string() ? ToDouble(*ParseRational(f.get<std::string>())) : f.get<double>());
-    still.caption = fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", told["group"].dump(),
-                                told["label"].get<std::string>(), told["event"].get<std::string>());
+    still.caption =
+        fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", JsonText(told["group"]),
+                    told["label"].get<std::string>(), told["event"].get<std::string>());
   }
   if (stills.empty() || stills.size() > kMostStills)
     throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
                      fmt::format("1 to {}; --html makes a page of more", kMostStills));
-  const std::string title =
-      loops ? fmt::format("{}: these {} drives, again and again", replay.file.name, run.replay["period"].dump())
-            : fmt::format("{}: {}", replay.file.name, run.end);
+  const std::string title = loops ? fmt::format("{}: these {} drives, again and again", replay.file.name,
+                                                JsonText(run.replay["period"]))
+                                  : fmt::format("{}: {}", replay.file.name, run.end);
   WriteText(o.svg, MovingPicture(replay.picture, title, stills, kSeconds));
 }
 

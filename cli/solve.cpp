@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,6 +29,7 @@
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
+#include "corpus/stop_reading.h"
 
 namespace stiction {
 namespace {
@@ -77,6 +79,7 @@ std::string WithinText(const Json& result) {
 }
 
 std::string SolvedSentence(const Json& result, const Solution& solution) {
+  if (result["f"].empty()) return "solved: there are no contacts, and no forces are asked for";
   const std::string law = LawOf(result);
   if (result.contains("bound")) return WithinText(result);
   if (std::holds_alternative<ExactAnswer>(solution.answer))
@@ -100,10 +103,10 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
   if (result.contains("period") && !reason.empty())
     return fmt::format("{}: from the state after {} drives on {}, the same steps every {} drives, for ever",
-                       outcome, result["start"].dump(), reason.substr(2), result["period"].dump());
+                       outcome, JsonText(result["start"]), reason.substr(2), JsonText(result["period"]));
   if (result.contains("period"))
     return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
-                       proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),
+                       proved ? "" : "after rounding, ", JsonText(result["start"]), JsonText(result["period"]),
                        proved ? ", for ever" : "");
   if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;
   if (outcome == "singular")
@@ -114,7 +117,7 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
 // "1/3", "0.5", "[0.49, 0.51]".
 std::string NumberText(const Json& x, FractionText fractions) {
   if (x.is_array()) return fmt::format("[{}, {}]", NumberText(x[0], fractions), NumberText(x[1], fractions));
-  if (!x.is_string()) return x.dump();
+  if (!x.is_string()) return JsonText(x);
   const auto exact = ParseRational(x.get<std::string>());
   return exact ? Text(*exact, fractions) : x.get<std::string>();
 }
@@ -148,7 +151,7 @@ std::string FieldsText(const Json& object) {
   std::string text;
   for (const auto& [key, value] : object.items())
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", WithBlanks(key),
-                        value.is_string() ? value.get<std::string>() : value.dump());
+                        value.is_string() ? value.get<std::string>() : JsonText(value));
   return text;
 }
 
@@ -178,7 +181,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
     const std::string text = key == "assumptions" ? AssumptionsText(value, o.file, problem.rows())
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
-                                                  : value.dump();
+                                                  : JsonText(value);
     Tell("{:18}  {}\n", WithBlanks(key), AsTyped(text));
   }
 }
@@ -186,9 +189,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
 using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
 // A stays as it is.
-Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
-  std::atomic<bool> stopped = false;
-  const std::jthread timer = StopAfter(o.seconds, stopped);
+Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem, const std::atomic<bool>& stopped) {
   SolveOptions options = o.options;
   options.limits.stop = &stopped;
   const Solution solution{SolveSparse(problem, options, o.method)};
@@ -214,14 +215,12 @@ std::variant<ProblemFile, SparseProblem> ReadFor(const SolveVerb& o) {
                                kMostDenseRows, dense));
 }
 
-Answered SolveOne(const SolveVerb& o) {
+Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
   const auto read = ReadFor(o);
-  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
+  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large, stopped);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
   request.factors = file.factors ? &*file.factors : nullptr;
-  std::atomic<bool> stopped = false;
-  const std::jthread timer = StopAfter(o.seconds, stopped);
   request.options.limits.stop = &stopped;
   const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);
@@ -232,24 +231,54 @@ Answered SolveOne(const SolveVerb& o) {
   return {result, ExitOf(solution.outcome())};
 }
 
-// Each answer of many files has the name of its file, and one that is refused does not keep the others from
-// being solved. Exit: 2 if one was refused, else 1 if one is not solved, else 3 if one is undecided.
+// Within --seconds, reading included.
+Answered SolveOne(const SolveVerb& o) {
+  std::atomic<bool> stopped = false;
+  const std::jthread timer = StopAfter(o.seconds, stopped);
+  const StopReading while_read(stopped);
+  try {
+    return SolveRead(o, stopped);
+  } catch (const ReadingStopped& end) {
+    InexactAnswer none;
+    none.method = o.method;
+    none.reason = end.what();
+    const Solution solution{none};
+    Json result = SolutionToJson(solution, 2);
+    result["assumptions"] = Json::array();
+    if (!o.json) PrintForPeople(o, {}, solution, result);
+    return {result, kExitUndecided};
+  }
+}
+
+// Each answer of many files has the name of its file, and one that is refused, or that ends in an error of
+// ours, does not keep the others from being solved. Exit: 70 if there was such an error, else 2 if one was
+// refused, else 1 if one is not solved, else 3 if one is undecided.
 int SolveMany(SolveVerb o) {
-  constexpr std::array kWorst = {kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};
+  constexpr std::array kWorst = {kExitInternal, kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};
   const auto severity = [&](int exit) { return std::find(kWorst.begin(), kWorst.end(), exit); };
   Json results = Json::array();
   int exit = kExitDone;
+  const auto end_with = [&](int ended) {
+    if (severity(ended) < severity(exit)) exit = ended;
+  };
+  const auto fail = [&](const std::string& file, const std::string& error, int ended) {
+    std::cerr << "stiction: " << error << "\n";
+    results.push_back({{"file", file}, {"error", error}});
+    end_with(ended);
+  };
   for (const std::string& file : o.files) {
     o.file = file;
     if (!o.json) Tell("{}{}:\n", results.empty() ? "" : "\n", file);
     try {
       auto [answer, ended] = SolveOne(o);
       results.push_back({{"file", file}, {"answer", std::move(answer)}});
-      if (severity(ended) < severity(exit)) exit = ended;
+      end_with(ended);
     } catch (const InputError& error) {
-      std::cerr << "stiction: " << error.what() << "\n";
-      results.push_back({{"file", file}, {"error", error.what()}});
-      exit = kExitBadInput;
+      fail(file, error.what(), kExitBadInput);
+    } catch (const std::bad_alloc&) {
+      fail(file, file + ": limit: out of memory", kExitUndecided);
+    } catch (const std::exception& error) {
+      fail(file, fmt::format("{}: internal error: {}", file, error.what()), kExitInternal);
     }
   }
   if (o.json) std::cout << JsonText(results) << "\n";

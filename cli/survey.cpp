@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -132,7 +133,7 @@ std::vector<std::filesystem::path> FilesOf(const std::vector<std::string>& paths
   return files;
 }
 
-// A file that cannot be read does not keep the others from being judged.
+// A file that cannot be read, or ends in an error of ours, does not keep the others from being judged.
 int Survey(const SurveyVerb& o) {
   int exit = kExitDone;
   Json entries = Json::array();
@@ -142,6 +143,12 @@ int Survey(const SurveyVerb& o) {
     throw InputError(
         fmt::format("survey: found no problem file in {}, expected files named *.json, *.dat or *.hdf5",
                     fmt::join(o.paths, ", ")));
+  const auto fail = [&](const std::filesystem::path& file, const std::string& error, int ended) {
+    if (exit != kExitInternal) exit = ended;
+    bar.Clear();
+    fmt::print(std::cerr, "stiction: {}\n", error);
+    entries.push_back({{"file", file.string()}, {"error", error}});
+  };
   for (const std::filesystem::path& file : files) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
@@ -153,10 +160,11 @@ int Survey(const SurveyVerb& o) {
       std::fflush(stdout);
       entries.push_back(std::move(entry));
     } catch (const InputError& error) {
-      exit = kExitBadInput;
-      bar.Clear();
-      fmt::print(std::cerr, "stiction: {}\n", error.what());
-      entries.push_back({{"file", file.string()}, {"error", error.what()}});
+      fail(file, error.what(), kExitBadInput);
+    } catch (const std::bad_alloc&) {
+      fail(file, fmt::format("{}: limit: out of memory", file.string()), kExitUndecided);
+    } catch (const std::exception& error) {
+      fail(file, fmt::format("{}: internal error: {}", file.string(), error.what()), kExitInternal);
     }
   }
   if (o.json) std::cout << JsonText(entries) << "\n";

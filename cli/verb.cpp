@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
 #include "cli/help.h"
+#include "corpus/rational.h"
 
 namespace stiction {
 namespace {
@@ -29,6 +31,15 @@ bool Read(const std::string& word, Number& number) {
   const char* const last = word.data() + word.size();
   const auto [end, error] = std::from_chars(word.data(), last, number);
   return error == std::errc() && end == last;
+}
+
+// A fraction too, as files have them.
+bool Read(const std::string& word, double& number) {
+  if (word.find('/') == word.npos) return Read<double>(word, number);
+  const auto exact = ParseRational(word);
+  if (!exact) return false;
+  number = ToDouble(*exact);
+  return std::isfinite(number) && (number != 0 || *exact == 0);
 }
 
 bool Read(const std::string& word, std::string& text) {
@@ -65,7 +76,7 @@ std::string DefaultOf(const std::vector<T>& field) {
 
 // "an integer from 1 to 1024"
 std::string ExpectedNumber(const OptionRow& row) {
-  const std::string number = row.TypeName() == "INTEGER" ? "an integer" : "a number";
+  const std::string number = row.TypeName() == "INTEGER" ? "an integer" : "a number or fraction";
   if (std::holds_alternative<std::optional<std::uint64_t>*>(row.field)) return number + " from 0 to 2^64 - 1";
   if (row.min == -std::numeric_limits<double>::infinity()) return number;
   return fmt::format("{} from {:g} to {}", number, row.min,

@@ -112,19 +112,26 @@ class PythonProblem {
   Eigen::VectorXd b_;
 };
 
+// Bytes that are no UTF-8, as a file or its name may have, become U+FFFD, as JsonText has it.
+py::str Decoded(const std::string& text) {
+  PyObject* const decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+  if (decoded == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
 py::object ToPython(const Json& json) {
   if (json.is_null()) return py::none();
   if (json.is_boolean()) return py::bool_(json.get<bool>());
   if (json.is_number_integer()) return py::int_(json.get<std::int64_t>());
   if (json.is_number()) return py::float_(json.get<double>());
-  if (json.is_string()) return py::str(json.get<std::string>());
+  if (json.is_string()) return Decoded(json.get_ref<const std::string&>());
   if (json.is_array()) {
     py::list list;
     for (const Json& value : json) list.append(ToPython(value));
     return list;
   }
   py::dict dict;
-  for (const auto& [key, value] : json.items()) dict[py::str(key)] = ToPython(value);
+  for (const auto& [key, value] : json.items()) dict[Decoded(key)] = ToPython(value);
   return dict;
 }
 
@@ -506,9 +513,9 @@ PYBIND11_MODULE(_stiction, module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const InputError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      PyErr_SetObject(PyExc_ValueError, Decoded(error.what()).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
+      PyErr_SetObject(PyExc_OSError, Decoded(error.what()).ptr());
     }
   });
   py::class_<PythonProblem>(module, "Problem")

@@ -179,6 +179,7 @@ bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
+  if (problem.rows() == 0) return false;
   const double eps = kProximal * problem.A.diagonal().maxCoeff();
   Dense near = problem;
   near.A.diagonal().array() += eps;

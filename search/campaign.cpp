@@ -233,7 +233,9 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
   Campaign campaign;
-  ReadFields(kFields, root, campaign, {"format", "version"});
+  Faults faults(source);
+  ReadFields(kFields, root, campaign, faults, {"format", "version"});
+  faults.Throw();
   return campaign;
 }
 
@@ -322,7 +324,9 @@ Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source)
     std::vector<FieldOf<Campaign>> told;
     std::ranges::copy_if(kFields, std::back_inserter(told),
                          [](const auto& f) { return f.use == FieldUse::kRemark; });
-    ReadFields(std::span<const FieldOf<Campaign>>(told), root, campaign);
+    Faults faults(of_remarks);
+    ReadFields(std::span<const FieldOf<Campaign>>(told), root, campaign, faults);
+    faults.Throw();
   }
   return campaign;
 }
@@ -340,8 +344,9 @@ std::string ShapeOfCampaign() { return ShapeOf(kFields, R"(format: "stiction-cam
 
 CampaignIdentity IdentityOf(const Campaign& campaign) {
   const Json remarks = FieldsOf(campaign, FieldUse::kRemark);
-  return {DefinitionToJson(campaign).dump(), campaign.seed, kPoliciesForm.write(campaign).dump(),
-          campaign.solver.name.empty() ? kCountsVersion : kJudgeVersion, remarks.empty() ? "" : remarks.dump()};
+  return {JsonText(DefinitionToJson(campaign)), campaign.seed, JsonText(kPoliciesForm.write(campaign)),
+          campaign.solver.name.empty() ? kCountsVersion : kJudgeVersion,
+          remarks.empty() ? "" : JsonText(remarks)};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {

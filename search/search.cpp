@@ -241,7 +241,7 @@ class Search {
     lock.unlock();
     const double start = worker.Seconds();
     double seconds_of_ipopt = 0;  // in a process of its own
-    const auto spent = [&] { return worker.Seconds() - start + seconds_of_ipopt; };
+    const auto spent = [&] { return std::max(0.0, worker.Seconds() - start) + seconds_of_ipopt; };
     ExactMethods methods;
     methods.ipopt = [&, ask = methods.ipopt](const ExactProblem& problem) {
       const Feasibility answer = ask(problem);

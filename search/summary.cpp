@@ -263,9 +263,7 @@ Json SummaryToJson(const Store& store) {
     WriteTold<O>(kOptimizedMembers,
                  {store, std::move(campaign), YieldOf(store), KeptOf(store), store.TotalWork()}, summary);
   }
-  try {
-    summary.dump();
-  } catch (const Json::exception&) {
+  if (!IsUtf8(summary)) {
     throw InputError(
         "summary: found a signature or another text of the store that is no UTF-8, which JSON asks for");
   }

@@ -223,7 +223,7 @@ ExactRun RequireCycle(const ExactProblem& problem, const Policy& policy, const J
 std::string StepsAsText(const ExactRun& run, const std::vector<std::string>& names) {
   Json steps = Json::array({CycleStateToJson(run, names)});
   for (const Pivot<Rational>& pivot : run.trace.pivots) steps.push_back(PivotToJson(pivot, names));
-  return steps.dump();
+  return JsonText(steps);
 }
 
 // The different values of a key, in order.

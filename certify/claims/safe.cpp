@@ -209,7 +209,7 @@ Rational ReadDeterminant(const ExactProblem& problem, const ModeWord& word, cons
   const Rational value = ReadNumber(stated, path), determinant = ReducedDeterminant(problem, word);
   if (value == determinant) return determinant;
   throw Rejected{path, Shown(stated),
-                 ToString(determinant) + ", the reduced determinant of " + WordToJson(word).dump()};
+                 ToString(determinant) + ", the reduced determinant of " + JsonText(WordToJson(word))};
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
         std::ranges::find_if(modes, [name](Mode m) { return name != nullptr && *name == Name(m); });
     if (mode == modes.end()) {
       const ModeWord all(modes.begin(), modes.end());
-      throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + WordToJson(all).dump()};
+      throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + JsonText(WordToJson(all))};
     }
     prefix.push_back(*mode);
   }

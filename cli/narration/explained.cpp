@@ -238,12 +238,12 @@ std::string BetweenText(const Json& ends) {
 std::string ProblemText(const Json& found) {
   const Json& facts = found["survey"];
   std::vector<std::string> kinds;
-  for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(count.dump() + " " + kind);
+  for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(JsonText(count) + " " + kind);
   std::string text = fmt::format("{} {}: {}", NumberOf(facts["contacts"], "contact"),
                                  facts["dimension"] == 3 ? "in space" : "in the plane", fmt::join(kinds, ", "));
   if (found.contains("mu")) text += ", mu " + BetweenText(found["mu"]);
   text += fmt::format(". A has {}", NumberOf(facts["rows"], "row"));
-  if (found.contains("rank")) text += ", rank " + found["rank"].dump();
+  if (found.contains("rank")) text += ", rank " + JsonText(found["rank"]);
   if (found.contains("diagonal")) text += fmt::format(", A_ii {}", BetweenText(found["diagonal"]));
   return text + fmt::format(". The problem {}.", AssumptionsMetText(facts));
 }
@@ -271,16 +271,16 @@ std::string ExistenceText(const Json& found) {
 std::string PoliciesText(const Json& policies) {
   std::vector<std::string> parts;
   for (const auto& [outcome, count] : policies["outcomes"].items())
-    parts.push_back(fmt::format("{} {}", outcome, count.dump()));
-  const std::string text = fmt::format("The published algorithm under {}, readings of its text: {}.",
-                                       policies["all"] == 1 ? "1 policy" : policies["all"].dump() + " policies",
-                                       fmt::join(parts, ", "));
+    parts.push_back(fmt::format("{} {}", outcome, JsonText(count)));
+  const std::string text = fmt::format(
+      "The published algorithm under {}, readings of its text: {}.",
+      policies["all"] == 1 ? "1 policy" : JsonText(policies["all"]) + " policies", fmt::join(parts, ", "));
   const Json& loop = policies["loops"];
   if (loop.is_null()) return text;
   const char* unit = loop["outcome"] == "cycle" ? "drives" : "steps";
   return text + fmt::format(" Under {} the state after {} {} recurs every {} {}, for ever{}.",
-                            loop["policy"].get<std::string>(), loop["start"].dump(), unit,
-                            loop["period"].dump(), unit,
+                            loop["policy"].get<std::string>(), JsonText(loop["start"]), unit,
+                            JsonText(loop["period"]), unit,
                             loop["proved"] == true ? "" : " as far as rounded numbers tell");
 }
 
@@ -333,7 +333,7 @@ std::string MethodsText(const Json& found) {
   for (const Json& run : found.value("methods", Json::array())) {
     std::string end = run["outcome"];
     if (run.contains("period"))
-      end += fmt::format(": from {} on, every {}", run["start"].dump(), run["period"].dump());
+      end += fmt::format(": from {} on, every {}", JsonText(run["start"]), JsonText(run["period"]));
     if (run.contains("reason")) end += ": " + run["reason"].get<std::string>();
     table.AddRow(
         {fmt::format("  {}, {}", run["method"].get<std::string>(), run["arithmetic"].get<std::string>()), end});

@@ -210,7 +210,7 @@ std::string FindingText(const Finding& finding) {
   }
   std::string grid;
   for (const auto& [outcome, count] : facts.at("grid").items())
-    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", count.dump(), outcome);
+    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", JsonText(count), outcome);
   return text + (grid.empty() ? "; in space, over intervals" : "; policies: " + grid);
 }
 

@@ -65,7 +65,7 @@ class Aim {
     ProblemFile file = FileOf(candidate, fmt::format("{}-{}-{}", generator, unit_, index_));
     file.problem = ExactOf(posed);
     if (campaign_.solver.law == SolverLaw::kFrictionless) file.scene = {};  // it has friction
-    findings.push_back(SolverFinding(campaign_, unit_, index_, process_, ToJson(file).dump(), examined));
+    findings.push_back(SolverFinding(campaign_, unit_, index_, process_, JsonText(ToJson(file)), examined));
   }
 
   const Campaign& campaign_;

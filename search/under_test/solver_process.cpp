@@ -64,7 +64,7 @@ std::string RequestOf(const ContactProblem<double>& posed, SolverLaw law) {
                   {"mu", std::move(mu)},
                   {"kinds", std::move(kinds)}};
   if (law == SolverLaw::kBox) request["bounds"] = FixedBounds(posed);
-  return request.dump() + "\n";
+  return JsonText(request) + "\n";
 }
 
 SolverUnderTest ReadGreeting(const std::string& line, const std::string& source) {

@@ -157,9 +157,9 @@ class SolverUnit {
     const std::string signature = examined.Signature(posed_.contacts.size());
     if (++result_.record.signatures[signature] > 1) return;
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
-    result_.candidates.push_back(SolverFinding(campaign_, unit_, index, process_,
-                                               ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_))).dump(),
-                                               examined, leak));
+    result_.candidates.push_back(
+        SolverFinding(campaign_, unit_, index, process_,
+                      JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))), examined, leak));
   }
 
   const Campaign& campaign_;
@@ -251,7 +251,8 @@ Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t 
   finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
   finding.exact_outcome = Name(Outcome::kUndecided);
   finding.problem = problem;
-  finding.facts = Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}}.dump();
+  finding.facts =
+      JsonText(Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}});
   return finding;
 }
 
@@ -298,7 +299,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
       file.problem = minimized.problem;
       file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
                          {"minimized", true}};
-      finished.minimized = ToJson(file).dump();
+      finished.minimized = JsonText(ToJson(file));
       finished.minimized_existence = CertificateOfSolution(law, minimized.problem, campaign.limits);
       facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
     }
@@ -307,7 +308,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
     if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
       facts["scene"] = ToJson(*scene);
   }
-  finished.facts = facts.dump();
+  finished.facts = JsonText(facts);
   return finished;
 }
 

@@ -114,8 +114,8 @@ bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.policy = PolicyName(policy);
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
-  finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
-  if (facts != nullptr) finding.facts = facts->dump();
+  finding.problem = JsonText(ToJson(FileOf(campaign_, unit_, place.index, problem)));
+  if (facts != nullptr) finding.facts = JsonText(*facts);
   result_.candidates.push_back(std::move(finding));
   return true;
 }

@@ -165,7 +165,7 @@ void BodyNewton<Scalar>::TakePattern() {
         slots_.push_back(slot(columns_[piece.column + i], columns_[piece.column + j]));
     }
   }
-  ldlt_.analyzePattern(K_);
+  if (K_.cols() > 0) ldlt_.analyzePattern(K_);  // the orderings of Eigen take no empty matrix
   lu_knows_ = false;
 }
 
@@ -186,6 +186,7 @@ template <class Scalar>
 bool BodyNewton<Scalar>::Settle() {
   const Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon(), small(1e-9);
   Evaluate();
+  if (R_.size() == 0) return true;  // there are no velocities: f_ is all that it can be
   Scalar before = std::numeric_limits<Scalar>::infinity();
   for (int step = 0; step <= options_.newton; ++step) {
     const Scalar now = R_.cwiseAbs().maxCoeff();

@@ -101,6 +101,8 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
       {R"({"format": "stiction-campaign", "version": 2})", "version: found 2", "expected 1"},
       {R"({"format": "stiction-campaign", "version": "1"})", "version: found \"1\"", "expected 1"},
       {With(R"("threads": 2)"), "threads: found an unknown key", "expected only format, version, seed"},
+      {With(R"("threads": 2, "seed": -1, "unit_problems": 0)"), "threads: found an unknown key",
+       "; seed: found -1, expected an integer from 0 to 9223372036854775807; unit_problems: found 0"},
       {With(R"("seed": -1)"), "seed: found -1", "expected an integer from 0 to 9223372036854775807"},
       {With(R"("seed": 1.0)"), "seed: found 1.0", "expected an integer from 0"},
       {With(R"("seed": "1")"), "seed: found \"1\"", "expected an integer from 0"},
