@@ -24,8 +24,7 @@ from functools import cached_property, lru_cache
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (Cost, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
-                                times)
+from certificate_reader import Cost, dot, exact, fields, items, listed, main, need, planar_contacts, times
 import check_runs_in_space
 
 # --- Problems and policies -----------------------------------------------------------
@@ -395,13 +394,12 @@ def same(value, computed, place, policy):
 
 def check_policy(rows, stated, place, policy):
     """Runs the policy as long as its steps are those stated; returns the run if it is the one stated."""
-    steps = items(stated["pivots"], place + ".pivots")
+    steps = listed(stated["pivots"], place + ".pivots")
 
     def compare(made):
         need(len(made) <= len(steps), place + ".pivots", len(steps), "more steps: no repetition yet",
              f" under {policy}")
-        at, step = steps[len(made) - 1]
-        same(step, made[-1], at, policy)
+        same(steps[len(made) - 1], made[-1], f"{place}.pivots[{len(made) - 1}]", policy)
 
     found = run(rows, policy, compare)
     need(found.outcome == "cycle", place, "a cycle", f"{found.outcome} after {len(found.pivots)} steps",
@@ -411,19 +409,24 @@ def check_policy(rows, stated, place, policy):
     return found
 
 
+def steps_operations(n, witness):
+    """Of one step more than are stated, for every policy; the direction of a step is found once for all of them."""
+    operations = 0
+    for place, stated in items(witness["runs"], "$.witness.runs"):
+        fields(stated, place, "policies", "start", "period", "pivots", "state")
+        policies = len(listed(stated["policies"], place + ".policies"))
+        steps = len(listed(stated["pivots"], place + ".pivots")) + 1
+        operations += steps * (n**3 // 2 + 25 * n * policies)
+    return operations
+
+
 def check_runs(problem, witness):
     """The runs of a witness; the facts to print."""
     rows, first, runs = Rows(problem), {}, []
-    listed = items(witness["runs"], "$.witness.runs")
-    for place, stated in listed:
-        fields(stated, place, "policies", "start", "period", "pivots", "state")
-    steps = sum(len(items(stated["policies"], place + ".policies")) * (len(items(stated["pivots"], place + ".pivots")) + 1)
-                for place, stated in listed)
-    Cost(reduced_operations(len(problem.b), steps)).all_rows(problem)
-    for place, stated in listed:
-        policies = items(stated["policies"], place + ".policies")
-        need(policies, place + ".policies", [], "at least one policy")
-        for at, policy in policies:
+    Cost(steps_operations(len(problem.b), witness)).all_rows(problem)
+    for place, stated in items(witness["runs"], "$.witness.runs"):
+        need(stated["policies"], place + ".policies", [], "at least one policy")
+        for at, policy in items(stated["policies"], place + ".policies"):
             read_policy(policy, at)
             need(policy not in first, at, policy, f"no policy twice, see {first.get(policy)}")
             first[policy] = at

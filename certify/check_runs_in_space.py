@@ -24,7 +24,7 @@ from fractions import Fraction
 from itertools import count
 from math import isqrt
 
-from certificate_reader import Cost, brief, integer, items, need, one_of, reduced_operations, vector
+from certificate_reader import Cost, brief, integer, items, listed, need, one_of, vector
 
 MOST_BITS = 4096
 SWITCHES = {  # the value of the reference policy `paper` first; those of the plane that have a meaning in space
@@ -930,14 +930,18 @@ class Box:
         need(apart, "$.witness.start", self.witness["start"], "a state that the period surely moves")
 
 
+def step_operations(n, coordinates):
+    """Of a step over numbers with so many derivatives."""
+    return (1 + coordinates) * (n**3 + 20 * n**2 + 300 * n)
+
+
 def begin(problem, witness, policy, coordinates=0):
     """A run from f = 0, over numbers of so many bits, of the steps that are stated."""
     Number.bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
-    word = items(witness["word"], "$.witness.word")
-    for at, step in word:
+    steps = len(listed(witness["word"], "$.witness.word")) + 1
+    Cost(step_operations(len(problem.b), coordinates) * steps).add(2 * Number.bits).longest_row(problem)
+    for at, step in items(witness["word"], "$.witness.word"):
         need(type(step) is str, at, step, "a step as a text")
-    cost = Cost(reduced_operations(len(problem.b), 8 * (len(word) + 1) * (1 + coordinates))).add(2 * Number.bits)
-    cost.longest_row(problem)
     return Run(Space(problem), policy, Stated(witness["word"]))
 
 
