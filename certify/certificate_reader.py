@@ -384,7 +384,7 @@ class Budget:
 
     FREE_WORK, WORK_PER_CHARACTER = 4 * 10**12, 250_000
     FREE_DIGITS, DIGITS_PER_CHARACTER = 1_000_000, 2
-    FREE_CELLS, CELLS_PER_CHARACTER = 1_000_000, 60
+    FREE_CELLS, CELLS_PER_CHARACTER = 1_000_000, 100
     SHORT = 10**6  # the square of the bits with which an operation takes twice as long
     length = 0
 

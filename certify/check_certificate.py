@@ -519,8 +519,6 @@ def box_operations(n, fixed, unknowns):
 def read_fixed(problem, witness, zero):
     """Row -> (force, weights, place) of those of the rows `zero` that follow from the others; and these."""
     fixed, last = {}, -1
-    count = len(listed(witness["fixed"], "$.witness.fixed"))
-    Cost(box_operations(len(problem.b), count, len(zero) - count))
     for at, entry in items(witness["fixed"], "$.witness.fixed"):
         fields(entry, at, "row", "f", "weights")
         last = integer(entry["row"], at + ".row", last + 1, len(problem.b))
@@ -561,9 +559,10 @@ def check_coulomb_exact(problem, witness):
     radius = exact(witness["radius"], "$.witness.radius")
     need(radius > 0, "$.witness.radius", radius, "a number > 0")
     still = [span if mode == "stick" else span[:mode != "break"] for mode, _, span in contacts]  # a = 0, f an unknown
+    n, count = len(problem.b), len(listed(witness["fixed"], "$.witness.fixed"))
+    size = sum(map(len, still)) - count + 3 * sum(mode == "slip" for mode, _, _ in contacts)
+    cost = Cost(box_operations(n, count, size))
     kept, fixed = read_fixed(problem, witness, [row for span in still for row in span])
-    n, size = len(problem.b), len(kept) + 3 * sum(mode == "slip" for mode, _, _ in contacts)
-    cost = Cost(box_operations(n, len(fixed), size))
     x, inverse = vector(witness["x"], "$.witness.x", size), rows(witness["inverse"], "$.witness.inverse", size)
     cost.longest_row(problem).numbers([*x, radius, *(f for f, _, _ in fixed.values())], 2)
     cost.numbers([part for contact in problem.contacts for part in (contact.mu or Fraction(0), *contact.slip)], 2)

@@ -490,3 +490,49 @@ def families(cycle, loops):
 
 
 PARTS = ("diagonal", "empty", "unit_rows")
+
+
+# --- Drawn ------------------------------------------------------------------------------
+
+LONG = ("1e9999", "-1e-9999", "7" * 39000, "1/" + "3" * 39000, "1e-9999", "0e9999", "1/1" + "0" * 9999, "0" * 39000)
+HUGE = (2**31 - 2, 2**31, 2**63, 3000, 2780, 10**6, -1, 0)
+
+
+def places(value, most=2000):
+    """Some of all (container, key) in a value, wherever they lie."""
+    found, containers = [], [value]
+    while containers and len(found) < most:
+        container = containers.pop()
+        for key in (container if isinstance(container, dict) else range(min(len(container), 50))):
+            found.append((container, key))
+            if isinstance(container[key], (dict, list)):
+                containers.append(container[key])
+    return found
+
+
+def altered(draw, made):
+    """With a few of its values larger than they were."""
+    for _ in range(draw.choice((0, 1, 3, 30))):
+        container, key = draw.choice(places(made))
+        value = container[key]
+        if isinstance(value, str):
+            container[key] = draw.choice(LONG)
+        elif isinstance(value, int):
+            container[key] = draw.choice(HUGE)
+        elif isinstance(value, list) and value:
+            container[key] = draw.choice((value[:1] * draw.choice((1000, 30000)), value * 2, [], [value]))
+    return made
+
+
+def drawn(draw, listed):
+    """One of the families, of any size, altered, or what two of them say in one."""
+    made, other = ([draw.choice(listed)[1](int(10**draw.uniform(3, 6)))] for _ in range(2))
+    made, other = made[0], other[0]
+    if isinstance(made, str) or isinstance(other, str):
+        return made
+    made = copy.deepcopy(made)
+    if draw.random() < 0.3:
+        made["problem"] = copy.deepcopy(other["problem"])
+    if draw.random() < 0.1:
+        made["claim"] = other["claim"]
+    return altered(draw, made)
