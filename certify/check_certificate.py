@@ -654,7 +654,7 @@ def words_of(problem):
 
 def word_operations(n, times):
     """Of reduced determinants, which have half of the rows on average."""
-    return times * (n**3 + 40 * n**2 + 500 * n + 1000) // 100
+    return times * (n**3 + 40 * n**2 + 500 * n + 1000) // 300
 
 
 def check_safe(problem, witness):
