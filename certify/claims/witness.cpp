@@ -60,7 +60,9 @@ Rational ReadNumber(const Json& json, const std::string& path) {
 }
 
 std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
-  if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
+  const bool fits = json.is_number_unsigned() ? json.get<std::uint64_t>() <= std::uint64_t{INT64_MAX}
+                                              : json.is_number_integer();
+  if (fits && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
   throw Rejected{path, Shown(json), fmt::format("an integer >= {}", least)};
 }
 
