@@ -27,6 +27,7 @@ from math import isqrt
 from certificate_reader import Cost, brief, integer, items, listed, need, one_of, vector
 
 MOST_BITS = 4096
+LARGE = "numbers of A, b and mu are below 2^(bits / 4)"
 SWITCHES = {  # the value of the reference policy `paper` first; those of the plane that have a meaning in space
     "scan": ("lowest", "normals-first", "most-violated", "highest"),
     "resume": ("restart", "round"),
@@ -953,6 +954,9 @@ def begin(problem, witness, policy, coordinates=0):
     Cost(step_operations(len(problem.b), coordinates) * steps).add(2 * Number.bits).longest_row(problem)
     for at, step in items(witness["word"], "$.witness.word"):
         need(type(step) is str, at, step, "a step as a text")
+    numbers = [*problem.b, *(x for row in problem.A for x in row), *(contact.mu or 0 for contact in problem.contacts)]
+    largest = max(map(abs, numbers), default=0)
+    need(largest < 1 << Number.bits // 4, "$.witness.bits", Number.bits, f"more bits: {LARGE}")
     return Run(Space(problem), policy, Stated(witness["word"]))
 
 

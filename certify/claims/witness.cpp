@@ -97,17 +97,17 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
 
 namespace {
 
-std::int64_t LengthOf(std::string_view text) {  // in characters
+std::int64_t CharactersOf(std::string_view text) {
   return std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
 }
 
 std::int64_t LengthOf(const Json& json) {
   std::int64_t length = 2;
-  if (const auto* text = json.get_ptr<const std::string*>()) return length + LengthOf(*text);
+  if (const auto* text = json.get_ptr<const std::string*>()) return length + CharactersOf(*text);
   if (json.is_array())
     for (const Json& item : json) length += LengthOf(item);
   if (json.is_object())
-    for (const auto& [key, item] : json.items()) length += LengthOf(std::string_view(key)) + LengthOf(item);
+    for (const auto& [key, item] : json.items()) length += CharactersOf(key) + LengthOf(item);
   return length;
 }
 

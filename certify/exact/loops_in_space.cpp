@@ -674,11 +674,23 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
   return loop.endless ? FaultOfRecurrence(problem, state, loop, image) : std::nullopt;
 }
 
+// Fixed places take a number that is large beside 2^bits for one that is hardly known.
+std::optional<LoopFault> FaultOfNumbers(const ExactProblem& problem, int bits) {
+  const Rational most = mpz_class(1) << bits / 4;
+  const auto is_large = [&most](const Rational& x) { return abs(x) >= most; };
+  bool large = std::any_of(problem.A.data(), problem.A.data() + problem.A.size(), is_large) ||
+               std::any_of(problem.b.data(), problem.b.data() + problem.b.size(), is_large);
+  for (const Contact<Rational>& contact : problem.contacts) large |= is_large(contact.mu);
+  if (!large) return std::nullopt;
+  return LoopFault{"bits", std::to_string(bits), "more: numbers of A, b and mu are below 2^(bits / 4)"};
+}
+
 }  // namespace
 
 std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
                                        const LoopInSpace& loop) {
   if (loop.endless && !loop.IsBox()) return LoopFault{"kind", "states", "box"};
+  if (auto fault = FaultOfNumbers(problem, loop.bits)) return fault;
   const FineBits bits(loop.bits);
   const FineProblem fine(problem, policy, {});
   Walk walk = fine.Begin();
@@ -726,6 +738,7 @@ std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, cons
 
 std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy,
                                       const RayInSpace& ray) {
+  if (auto fault = FaultOfNumbers(problem, ray.bits)) return fault;
   const FineBits bits(ray.bits);
   const FineProblem fine(problem, policy, {});
   Walk walk = fine.Begin();
