@@ -438,7 +438,7 @@ def require_cheap_product(problem, x, squared=False):
         longest = max((cost.bits(numbers) for i in group
                        for numbers in ([problem.b[i], *(y for _, y in entries[i])], columns[i])), default=0)
         bits = cost.add(longest).numbers([x[i] for i in group], 1 + squared).total
-        work += len(group) * bits**2 + sum(len(entries[i]) for i in group) * longest * bits // 8
+        work += len(group) * (Budget.SHORT + bits**2) + sum(len(entries[i]) for i in group) * longest * bits // 8
         Budget.require_work(work)
 
 

@@ -275,7 +275,7 @@ class ProductCost {
     }
     cost.AddBits(longest).Numbers(part, times);
     const double bits = static_cast<double>(cost.bits());
-    work_ += static_cast<double>(group.size()) * bits * bits +
+    work_ += static_cast<double>(group.size()) * (Budget::kShort + bits * bits) +
              std::floor(static_cast<double>(entries) * static_cast<double>(longest) * bits / 8);
     RequireWork(work_);
   }
