@@ -40,13 +40,41 @@ std::vector<std::vector<int>> RowsOfBlocks(const FactorParts& parts) {
   return rows;
 }
 
+// Operations of a product, of velocities and of entries of J.
+double OperationsOf(const ExactProblem& problem, double velocities, double entries) {
+  return ProductOperations(problem.rows(), 1) + 15 * velocities + 6 * entries;
+}
+
+// Before any number is read: each velocity is touched by a row, and by its own entry of J.
+void RequireFewVelocities(const ExactProblem& problem, const Json& json) {
+  if (!json.is_object() || !json.contains("J")) return;  // refused where it is read
+  const Json& J = json["J"];
+  if (!J.is_object() || !J.contains("size") || !J.contains("entries")) return;
+  const Json &size = J["size"], &entries = J["entries"];
+  if (!size.is_array() || size.size() != 2 || !size[1].is_number_unsigned() || !entries.is_array()) return;
+  if (size[1] > entries.size())
+    throw Rejected{"witness.factors.J.size[1]", Shown(size[1]),
+                   fmt::format("at most {}, the entries of J", entries.size())};
+  Cost(OperationsOf(problem, size[1].get<double>(), static_cast<double>(entries.size())));
+}
+
+void RequireTouchedVelocities(const FactorParts& parts) {
+  std::set<int> touched;
+  for (const auto& [at, value] : parts.J) touched.insert(at.second);
+  if (std::ssize(touched) == parts.w.size()) return;
+  throw Rejected{"witness.factors.J.entries",
+                 fmt::format("{} velocities with entries other than 0", touched.size()),
+                 fmt::format("an entry for each of the {}", parts.w.size())};
+}
+
 // What certificates.md says of it, before anything is computed.
 void RequireCheap(const ExactProblem& problem, const FactorParts& parts) {
   const auto rows_of = RowsOfBlocks(parts);
-  double operations = ProductOperations(problem, 1);
+  double operations =
+      OperationsOf(problem, static_cast<double>(parts.w.size()), static_cast<double>(parts.J.size()));
   for (std::size_t k = 0; k < parts.M.size(); ++k) {
     const double s = static_cast<double>(parts.M[k].rows()), t = static_cast<double>(rows_of[k].size());
-    operations += s * (s + t) * (s + t);
+    operations += 20 + 2 * s * (s + t) * (s + t) + 4 * t * t;
   }
   Cost cost(operations);
   cost.LongestRow(problem).Vector(parts.w).Vector(parts.c);
@@ -78,7 +106,9 @@ bool HasFactors(const Json& witness) { return witness.is_object() && witness.con
 
 ExactVector RequireFactorsOfProblem(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"factors"});
+  RequireFewVelocities(problem, witness["factors"]);
   FactorParts parts = ReadParts(problem, witness["factors"]);
+  RequireTouchedVelocities(parts);
   RequireCheap(problem, parts);
   const auto factors = MakeFactors(problem.dimension, problem.contacts, std::move(parts));
   if (!factors) throw Rejected{"witness.factors.M", "a block that is not definite", "a positive definite one"};

@@ -289,6 +289,13 @@ ExactMatrix ReadSquare(const Json& json, const std::string& path, int size) {
   return M;
 }
 
+// Of Krawczyk's test.
+double BoxOperations(const ExactProblem& problem, std::size_t fixed, std::int64_t unknowns) {
+  const auto size = static_cast<double>(std::max<std::int64_t>(unknowns, 0));
+  return ProductOperations(problem.rows(), 2 * static_cast<double>(fixed) + 4) +
+         ProductOperations(size, 2 * size + 4);
+}
+
 // Of all that is multiplied with each other.
 void RequireCheap(const ExactProblem& problem, int size, const FixedForces& fixed, const ExactVector& x,
                   const Rational& radius, const ExactMatrix& inverse) {
@@ -300,8 +307,7 @@ void RequireCheap(const ExactProblem& problem, int size, const FixedForces& fixe
   }
   for (const Contact<Rational>& contact : problem.contacts)
     friction.insert(friction.end(), {contact.mu, contact.slip[0], contact.slip[1]});
-  const double square = static_cast<double>(size) * size + 8.0 * size;
-  Cost(ProductOperations(problem, static_cast<double>(fixed.size()) + 2) + std::floor((size + 2) * square / 8))
+  Cost(BoxOperations(problem, fixed.size(), size))
       .LongestRow(problem)
       .Numbers(point, 2)
       .Numbers(friction, 2)
@@ -328,6 +334,9 @@ Json CheckCoulombExact(const ExactProblem& problem, const Json& witness) {
   Layout layout(problem, ReadBehaviors(witness["modes"], problem));
   const Rational radius = ReadNumber(witness["radius"], "witness.radius");
   if (radius <= 0) throw Rejected{"witness.radius", ToString(radius), "a number > 0"};
+  RequireList(witness["fixed"], "witness.fixed");
+  const std::size_t fixed_rows = witness["fixed"].size();  // that they are as many is seen below
+  Cost(BoxOperations(problem, fixed_rows, layout.size - static_cast<std::int64_t>(fixed_rows)));
   const FixedForces fixed = ReadFixed(witness["fixed"], layout);
   const ExactVector x = ReadVector(witness["x"], "witness.x", layout.size);
   const ExactMatrix inverse = ReadSquare(witness["inverse"], "witness.inverse", layout.size);

@@ -237,12 +237,13 @@ std::size_t LengthOf(const Json& run, const char* key) {
   return run.is_object() && run.contains(key) && run[key].is_array() ? run[key].size() : 0;
 }
 
-// As many steps as are stated of every policy, each by an elimination.
+// One step more than are stated, for every policy.
 void RequireFewSteps(const ExactProblem& problem, const Json& runs) {
-  double steps = 0;
+  double operations = 0;
   for (const Json& run : runs)
-    steps += static_cast<double>(LengthOf(run, "policies")) * static_cast<double>(LengthOf(run, "pivots") + 1);
-  Cost(ReducedOperations(problem, steps)).AllRows(problem);
+    operations += StepOperations(problem.rows(), static_cast<double>(LengthOf(run, "policies"))) *
+                  static_cast<double>(LengthOf(run, "pivots") + 1);
+  Cost(operations).AllRows(problem);
 }
 
 Json CheckRuns(const ExactProblem& problem, const Json& witness) {
@@ -296,6 +297,16 @@ std::vector<std::string> ReadWord(const Json& witness) {
   return word;
 }
 
+// One step more than are stated, with a derivative for every coordinate.
+void RequireFewStepsInSpace(const ExactProblem& problem, const Json& witness) {
+  if (!witness.is_object() || !witness.contains("bits")) return;  // refused where it is read
+  const double steps = static_cast<double>(LengthOf(witness, "word") + 1);
+  const double coordinates = static_cast<double>(LengthOf(witness, "radii"));
+  Cost(steps * StepInSpaceOperations(problem.rows(), coordinates))
+      .AddBits(2 * ReadBits(witness))
+      .LongestRow(problem);
+}
+
 LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   const bool punctured = witness.contains("kind") && witness["kind"] == "punctured";
   const bool box = punctured || (witness.contains("kind") && witness["kind"] == "box");
@@ -335,11 +346,10 @@ void RequireRunInSpace(const ExactProblem& problem) {
 
 Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness, bool endless) {
   RequireRunInSpace(problem);
+  RequireFewStepsInSpace(problem, witness);
   LoopInSpace loop = ReadLoop(problem, witness);
   loop.endless = endless;
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
-  const auto steps = static_cast<double>(loop.word.size() + 1) * static_cast<double>(1 + loop.charts.size());
-  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * loop.bits).LongestRow(problem);
   if (const auto fault = FindLoopFault(problem, policy, loop))
     throw Rejected{"witness." + fault->place, fault->found, fault->expected};
   return {{"policies", 1},
@@ -353,9 +363,8 @@ Json CheckRay(const ExactProblem& problem, const Json& witness) {
   RequireRunInSpace(problem);
   RequireKeys(witness, "witness", {"policy", "bits", "word"});
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
+  RequireFewStepsInSpace(problem, witness);
   const RayInSpace ray = {ReadBits(witness), ReadWord(witness)};
-  const auto steps = static_cast<double>(ray.word.size() + 1);
-  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * ray.bits).LongestRow(problem);
   if (const auto fault = FindRayFault(problem, policy, ray))
     throw Rejected{"witness." + fault->place, fault->found, fault->expected};
   return {{"policies", 1}, {"steps", ray.word.size()}};

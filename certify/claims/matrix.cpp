@@ -121,6 +121,7 @@ Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
 // that no number grows beyond the minors of A, whatever L and D are.
 ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
   const int rows = problem.rows();
+  Cost(EliminationOperations(rows, 1)).AllRows(problem);
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
   RequireList(witness["L"], "witness.L", static_cast<std::size_t>(rows), "rows");
   ExactMatrix L(rows, rows);
@@ -131,7 +132,6 @@ ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
       RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
   }
   RequireSymmetric(problem);
-  Cost(EliminationOperations(problem, 1)).AllRows(problem);
   ExactMatrix rest = problem.A;
   for (int k = 0; k < rows; ++k) {
     for (int i = k; i < rows; ++i)

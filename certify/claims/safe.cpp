@@ -224,7 +224,7 @@ Json CheckSafe(const ExactProblem& problem, const Json& witness) {
     throw Rejected{"witness.determinants", fmt::format("{} items", stated.size()),
                    "a list of " + count.get_str() + ", one for each word"};
   }
-  Cost(ReducedOperations(problem, static_cast<double>(stated.size()))).AllRows(problem);
+  Cost(WordOperations(problem.rows(), static_cast<double>(stated.size()))).AllRows(problem);
   const std::vector<ModeWord> words = AllWords(problem);
   Rational smallest = 1;  // that of the word in which all contacts break
   for (std::size_t k = 0; k < words.size(); ++k) {
@@ -242,7 +242,7 @@ Json CheckUnsafe(const ExactProblem& problem, const Json& witness) {
   const Json& stated = witness["word"];
   RequireList(stated, "witness.word", problem.contacts.size(), "modes");
   const ModeWord word = ReadPrefix(stated, "witness.word", problem);
-  Cost(EliminationOperations(problem, 1)).AllRows(problem);
+  Cost(EliminationOperations(problem.rows(), 1)).AllRows(problem);
   const Rational value = ReadDeterminant(problem, word, witness["determinant"], "witness.determinant");
   if (value > 0) throw Rejected{"witness.determinant", ToString(value), "a number <= 0"};
   return {{"word", stated}, {"determinant", ToString(value)}};
