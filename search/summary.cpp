@@ -314,9 +314,8 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);
   text += fmt::format(
-      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report; the "
-      "same "
-      "search again goes on.\n",
+      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report. More "
+      "--minutes or --problems go on from here.\n",
       file, ProgramName());
   return text;
 }

@@ -23,9 +23,9 @@
 namespace stiction {
 namespace {
 
-constexpr double kLook = 0.05;          // seconds between looks at `stopped`
-constexpr double kPatienceOfEnd = 1;    // for the end of a process whose output ended
-constexpr double kPatienceOfGuard = 4;  // which gives up after two
+constexpr double kLook = 0.05;            // seconds between looks at `stopped`
+constexpr double kPatienceOfEnd = 1;      // for the end of a process whose output ended
+constexpr double kPatienceOfGuard = 1.2;  // which gives up after one
 constexpr double kPatienceOfStart = 60;
 constexpr const char* kMark = "STICTION_MARK";
 
@@ -116,6 +116,7 @@ void LineProcess::EndGuard() {
   if (guard_ <= 0) return;
   PassErrors();
   shutdown(control_.number(), SHUT_WR);
+  kill(guard_, SIGCONT);  // the program may have stopped it
   const auto deadline = After(kPatienceOfGuard);
   bool has_ended = false;
   while (!has_ended && Clock::now() < deadline) {

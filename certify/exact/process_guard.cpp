@@ -27,7 +27,7 @@
 namespace stiction {
 namespace {
 
-constexpr int kMostOfCleaning = 400;  // turns, of 5 ms at most
+constexpr int kMostOfCleaning = 200;  // turns, of 5 ms at most
 
 void Ignore(int) {}
 
@@ -135,7 +135,7 @@ void KillChildren() {
   close(folder);
 }
 
-// Until there is no child left; what the kernel itself does not let go of is left to it after two seconds.
+// Until there is no child left; what the kernel itself does not let go of is left to it after a second.
 void KillAll(pid_t program, const sigset_t& waiting) {
   kill(-program, SIGKILL);
   for (int turn = 0; turn < kMostOfCleaning; ++turn) {

@@ -207,7 +207,7 @@ std::string SolverText(const Store& store, const std::string& file, const std::s
         fmt::format("What is not finished is finished by:\n    {}\n", FinishTestedCommand(file, solver_file));
   if (const std::vector<Finding> findings = BySize(store); !findings.empty())
     text += fmt::format(
-        "The same search with more --problems or --minutes goes on.\nA finding as a problem file, and as a "
+        "More --problems or --minutes go on from here.\nA finding as a problem file, and as a "
         "program:\n    {0} problem {1} {2}\n"
         "    {0} export {1}:{2} --reproducer c -o {2}.c\n",
         ProgramName(), file, findings.front().signature);

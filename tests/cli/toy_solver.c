@@ -100,6 +100,9 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
 #ifdef BUG_TIE
     if (twins && f[0] > 0) f[0] = -f[0];
 #endif
+#ifdef BUG_NOISE /* twenty times its accuracy, in a unit of its own */
+    f[0] += 2e-5;
+#endif
 #ifdef BUG_NAN
     if (rare) f[0] = (A[0] - A[n + 1]) / (b[0] - b[1]);
 #endif
