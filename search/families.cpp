@@ -13,10 +13,10 @@
 namespace stiction {
 namespace {
 
-using Family = std::pair<std::string, int>;
+using FamilyKey = std::pair<std::string, int>;
 
-std::set<Family> FamiliesWithProblems(const Store& store, const Campaign& campaign) {
-  std::set<Family> families;
+std::set<FamilyKey> FamiliesWithProblems(const Store& store, const Campaign& campaign) {
+  std::set<FamilyKey> families;
   const Record total = store.Total();
   for (const auto& [key, tally] : total.under_test)
     if (tally.problems > 0) families.insert({key.generator, key.contacts});
@@ -42,7 +42,7 @@ std::string Named(const std::vector<std::pair<std::string, std::vector<int>>>& f
 }  // namespace
 
 Families FamiliesOf(const Store& store, const Campaign& campaign) {
-  const std::set<Family> present = FamiliesWithProblems(store, campaign);
+  const std::set<FamilyKey> present = FamiliesWithProblems(store, campaign);
   Families families;
   for (const GeneratorId id : campaign.generators) {
     const std::string name(Row(id).name);

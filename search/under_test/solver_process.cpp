@@ -204,11 +204,14 @@ void SolverProcess::Start() {
   process_ = std::make_unique<LineProcess>(
       command_, "a library NAME.so or a program that may be executed",
       LineBounds{kSolverLine, patience_.stopped, [this](std::string_view text) { TakeErrors(text); }});
+  const auto start = LineProcess::Clock::now();
   const LineProcess::Line line = process_->Read(LineProcess::After(patience_.greeting));
+  const double took = std::chrono::duration<double>(LineProcess::Clock::now() - start).count();
   if (line.end != LineProcess::End::kLine) {
     const std::optional<int> status =
         line.end == LineProcess::End::kDied ? process_->WaitStatus() : std::nullopt;
     process_.reset();
+    seconds_ += took;
     throw InputError(
         fmt::format("{}: found no greeting{}, expected a line of JSON that says what the solver is", file,
                     status ? ": it ended, " + HowItEnded(*status) : ""));
@@ -218,6 +221,8 @@ void SolverProcess::Start() {
     throw SolverChanged(file +
                         ": found another solver than before, expected the same one as long as it is tested");
   about_ = std::move(about);
+  // The next time no longer than it takes, or as a problem may.
+  patience_.greeting = std::min(patience_.greeting, kSolverPatience * std::max(kSolverSeconds, took));
   if (statm_ >= 0) close(statm_);
   statm_ = open(fmt::format("/proc/{}/statm", process_->id()).c_str(), O_RDONLY | O_CLOEXEC);
   first_memory_ = last_memory_ = Memory();
@@ -235,7 +240,7 @@ bool SolverProcess::StartAgain(SolverReply& reply) {
     throw;
   } catch (const InputError&) {
     process_.reset();
-    reply = {.end = SolverEnd::kCrashed, .f = {}, .how = "no-greeting"};
+    reply = {.end = SolverEnd::kCrashed, .f = {}, .how = std::string(kNoGreeting)};
     if (patience_.stopped && patience_.stopped()) reply = {.end = SolverEnd::kStopped, .f = {}, .how = ""};
     return false;
   }

@@ -31,7 +31,7 @@ inline constexpr std::size_t kSolverLine = std::size_t{1} << 20;     // bytes of
 inline constexpr std::size_t kSolverErrors = std::size_t{1} << 16;   // of standard error that are shown
 inline constexpr double kGreetingSeconds = 60;                       // until it says what it is
 
-inline constexpr std::string_view kAsleep = "asleep";
+inline constexpr std::string_view kAsleep = "asleep", kNoGreeting = "no-greeting";
 
 enum class SolverEnd : std::uint8_t { kAnswered, kCrashed, kHung, kStopped };
 

@@ -121,7 +121,7 @@ class SolverUnit {
     ++CounterOf(tally, examined.kind);
     tally.misses_coulomb += examined.misses_coulomb;
     if (examined.kind == "crash" || examined.kind == "hang")
-      lost_ += examined.what == kAsleep ? kProcessesOfSleep : 1;
+      lost_ += examined.what == kAsleep || examined.what == kNoGreeting ? kProcessesOfSleep : 1;
     if (examined.Fails()) Find(index, examined, 0);
     WatchMemory(index);
   }
@@ -222,9 +222,9 @@ std::optional<ContactProblem<double>> InDoubles(const ExactProblem& problem) {
 
 // What a problem that is made simpler keeps: it is one that bodies make, with A symmetric and semidefinite and
 // b in its range; every row moves under its own force, and something acts, where that was so at first.
-class Kept {
+class Promises {
  public:
-  explicit Kept(const ExactProblem& found)
+  explicit Promises(const ExactProblem& found)
       : found_(found), moves_(EachRowMoves(found)), is_loaded_(!found.b.isZero()) {}
 
   std::optional<std::string> LackOf(const ExactProblem& problem) const {
@@ -334,7 +334,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
   facts["alone"] = again;
   finished.existence = CertificateOfSolution(law, problem, campaign.limits);
-  const Kept kept(problem);
+  const Promises kept(problem);
   MinimizeOptions options;
   options.cancelled = cancelled;
   options.lacks = [&](const ExactProblem& candidate) -> std::optional<std::string> {
