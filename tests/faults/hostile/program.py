@@ -6,9 +6,7 @@ import json
 import os
 import resource
 import signal
-import subprocess
 import sys
-import threading
 import time
 
 NAME = os.path.basename(sys.argv[0])
@@ -153,6 +151,7 @@ def terminal(problem):
 
 
 def threads(problem):
+    import threading  # none of the others waits for it
     threading.Thread(target=sleep).start()
     threading.Thread(target=spin, daemon=True).start()
     answer(problem)
@@ -187,8 +186,8 @@ def leaks(problem):
 
 
 def by_a_child(problem):
-    child = subprocess.Popen(["sleep", MARK])
-    child.wait()
+    child = os.spawnv(os.P_NOWAIT, "/bin/sleep", ["sleep", MARK])
+    os.waitpid(child, 0)
 
 
 NESTED = b'{"solved": true, "f": ' + b"[" * 400_000 + b"]" * 400_000 + b"}\n"
