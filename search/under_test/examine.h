@@ -17,8 +17,8 @@ namespace stiction {
 struct Examined {
   std::string_view kind;  // of a failure (corpus/record/kinds.h); "passed"; "refused", "unjudged": none that is
                           // shown; "stopped": the search is
-  std::string what;  // in which way: signal, condition that is missed; may be empty
-  double error = 0;  // of what is called solved
+  std::string what;       // in which way: signal, condition that is missed; may be empty
+  double error = 0;       // of what is called solved
   bool misses_coulomb = false;
   bool says_solved = false;
 
