@@ -249,12 +249,12 @@ class Promises {
 };
 
 // Whether a failure is the one that is sought: the same in kind and way and, of what is wrong, as clear.
-class Alike {
+class Sought {
  public:
-  Alike(const Examined& sought, const SolverUnderTest& about)
+  Sought(const Examined& sought, const SolverUnderTest& about)
       : sought_(sought), least_(std::min(sought.error, kClearError * std::stod(about.accuracy))) {}
 
-  bool operator()(const Examined& examined) const {
+  bool FailsAlike(const Examined& examined) const {
     return examined.kind == sought_.kind && examined.what == sought_.what &&
            (examined.kind != "silent-wrong" || examined.error >= least_);
   }
@@ -327,9 +327,9 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   };
   const Examined sought = alone(problem);
   if (cancelled()) return std::nullopt;
-  const Alike alike(sought, campaign.solver);
+  const Sought like(sought, campaign.solver);
   const auto fails = [&](const ContactProblem<double>& posed) {
-    return alike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
+    return like.FailsAlike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
   };
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
   facts["alone"] = again;
@@ -349,7 +349,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
     if (minimized.cancelled || cancelled()) return std::nullopt;
     const Examined last = alone(minimized.problem);
     if (cancelled()) return std::nullopt;
-    if (alike(last)) {
+    if (like.FailsAlike(last)) {
       ProblemFile file;
       file.name = finding.signature;
       file.problem = minimized.problem;
@@ -360,7 +360,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
       facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
     }
     const auto scene = SimpleSceneOf(finding, campaign, fails, cancelled);
-    if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
+    if (scene && like.FailsAlike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
       facts["scene"] = ToJson(*scene);
   }
   if (cancelled()) return std::nullopt;
