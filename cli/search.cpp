@@ -119,7 +119,7 @@ void Set(const FieldOf<Campaign>& field, const Given& given, Campaign& campaign)
 SolverPatience PatienceOf(const SearchVerb& verb) {
   constexpr double kLeast = 5;
   const double budget = 60 * verb.minutes.value_or(kDefaultMinutes);
-  return {.stopped = [] { return Interruption().load(); },
+  return {.stopped = [&interrupted = Interruption()] { return interrupted.load(); },
           .greeting = std::min(kGreetingSeconds, std::max(kLeast, budget))};
 }
 
@@ -241,7 +241,8 @@ std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> as
   if (!asked) return "";
   const std::vector<Task> schedule = Schedule(campaign);
   std::int64_t problems = 0;
-  for (std::int64_t unit = 0; unit < UnitsFor(campaign, *asked); ++unit)
+  const std::int64_t units = UnitsFor(campaign, *asked);
+  for (std::int64_t unit = 0; unit < units; ++unit)
     problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
   if (problems == *asked) return "";
   return fmt::format(

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "corpus/json.h"
-#include "search/adversary/candidate.h"
 
 namespace stiction {
 namespace {

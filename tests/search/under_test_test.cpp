@@ -278,7 +278,7 @@ TEST_CASE("under test: what lacks forces or has too many is no answer, and a lac
     CHECK(std::isnan(beyond.f[0]));
     CHECK_FALSE(beyond.is_in_range);
   }
-  const SolverReply tiny = reply(R"({"solved": true, "f": [1e-999], "NaN": "1e999 NaN \" 1e999"})");
+  const SolverReply tiny = reply(R"({"solved": true, "f": [1e-999], "NaN": "1e999 NaN \\" 1e999"})");
   CHECK((tiny.end == SolverEnd::kAnswered && tiny.is_in_range && tiny.f[0] == 0));
   for (const char* const said :
        {R"({"solved": true})", R"({"solved": true, "f": [0, 0]})", R"({"solved": true, "f": []})",
