@@ -144,7 +144,7 @@ class UnderTest(cli.TestCase):
                 "for line in sys.stdin: answer(); ")
 
     def leaks(self, body, *options, greeting=""):
-        """The findings of a program that refuses all, which is no failure under this law and kind of problem."""
+        """The leaks that are found of a program that gives up on every problem."""
         store = f"{len(list(self.folder.glob('*.store')))}.store"
         done = self.search(self.program(self.GREETING % greeting + body + "\n"), store, *options, contacts=(1,), problems=4000,
                            unit=4000, finishing=0, generator="psd")
