@@ -373,7 +373,7 @@ TEST_CASE("campaign: every generator and size has its turn in the first round") 
 TEST_CASE("campaign: a unit has half as many problems for each contact beyond two, at least one") {
   Campaign campaign;
   campaign.unit_problems = 100;
-  const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}); };
+  const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}, 0); };
   CHECK(
       (problems(1) == 100 && problems(2) == 100 && problems(3) == 50 && problems(4) == 25 && problems(8) == 1));
   campaign.unit_problems = 1;
@@ -389,7 +389,7 @@ TEST_CASE("campaign: units for a number of problems are the fewest that hold it"
   const auto held = [&](std::int64_t units) {
     std::int64_t problems = 0;
     for (std::int64_t unit = 0; unit < units; ++unit)
-      problems += UnitProblems(campaign, schedule[static_cast<std::size_t>(unit) % schedule.size()]);
+      problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
     return problems;
   };
   for (std::int64_t problems = 1; problems < 900; ++problems) {
