@@ -26,7 +26,7 @@ namespace py = pybind11;
 bool RunCampaign(const std::string& campaign_text, const std::string& store,
                  std::optional<std::int64_t> problems, std::optional<double> minutes, int threads,
                  std::optional<double> finishing) {
-  const Campaign campaign = ParseCampaign(campaign_text, "campaign");
+  const Campaign campaign = AsBegunIn(store, ParseCampaign(campaign_text, "campaign"));
   RequireConsistent(campaign);
   Signals signals;
   SearchOptions options;

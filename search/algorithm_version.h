@@ -18,8 +18,8 @@ inline constexpr int kAlgorithmVersion = 1;
 // is raised with the other, too.
 inline constexpr int kCountsVersion = 5;
 
-// Of a search that tests a solver: raised with these, and with what its answers are judged by.
-inline constexpr int kJudgeVersion = kCountsVersion + 3;
+// Of a search that tests a solver: raised with these, and with what its answers, hangs and leaks are judged by.
+inline constexpr int kJudgeVersion = kCountsVersion + 4;
 
 }  // namespace stiction
 

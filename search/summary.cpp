@@ -16,6 +16,7 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/families.h"
 #include "search/under_test/solver_report.h"
 
 namespace stiction {
@@ -50,9 +51,9 @@ Json RatesToJson(const Counts& counts) {
   Json rates = Json::object();
   for (const auto& [name, count] : FailuresOf(counts)) {
     const double scale = 1e6 / static_cast<double>(counts.runs);
-    const Interval expected = CountInterval(count);
+    const Interval rate = RateInterval(count, counts.runs);
     rates[name] = {{"per_million", scale * static_cast<double>(count)},
-                   {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
+                   {"interval", IntervalToJson(Interval{1e6 * rate.low, 1e6 * rate.high})}};
   }
   return rates;
 }
@@ -126,6 +127,8 @@ constexpr auto kOptimizedMembers = std::to_array<ToldOf<O>>({
     {"objective", "text", "", [](const O& s) -> Json { return s.campaign.objective; }},
     {"optimizer", "text", "", [](const O& s) -> Json { return s.campaign.optimizer; }},
     {"units", "integer", "", [](const O& s) -> Json { return s.yield.units; }},
+    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
+     [](const O& s) { return FamiliesToJson(s.store); }},
     {"candidates", "integer", "", [](const O& s) -> Json { return s.yield.evaluations; }},
     {"confirmations", "integer", "candidates whose value was confirmed exactly",
      [](const O& s) -> Json { return s.yield.confirmations; }},
@@ -177,6 +180,8 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"processor_seconds", "times", "", [](const S& s) { return TimeToJson(s.totals.work.time); }},
     {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }},
     {"problems", "integer", "", [](const S& s) -> Json { return s.totals.problems; }},
+    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
+     [](const S& s) { return FamiliesToJson(s.store); }},
     {"runs", "integer", "problems, each under every policy",
      [](const S& s) -> Json { return s.counts().runs; }},
     {"failures", "counters",
@@ -307,9 +312,8 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);
   text += fmt::format(
-      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report; the "
-      "same "
-      "search again goes on.\n",
+      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report. More "
+      "--minutes or --problems go on from here.\n",
       file, ProgramName());
   return text;
 }

@@ -366,7 +366,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
          Paragraph("More as text; all as a page, with files to replay and to check:", 0) +
          Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
          Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file))) +
-         Paragraph("The same search again goes on.", 0);
+         Paragraph("More --minutes or --problems go on from here.", 0);
 }
 
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as, Extent extent) {

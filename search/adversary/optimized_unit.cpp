@@ -141,7 +141,7 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.palette = campaign.palette;
   optimization.seed = ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), 0);
   optimization.parents = StartOf(optimization, parents, campaign.parents);
-  optimization.evaluations = UnitProblems(campaign, task);
+  optimization.evaluations = UnitProblems(campaign, task, unit);
   optimization.policy = campaign.policies.front();
   optimization.limits = campaign.limits;
   optimization.cancelled = cancelled;

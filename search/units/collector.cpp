@@ -14,7 +14,7 @@ namespace stiction {
 
 Collector::Collector(const Campaign& campaign, const Task& task, std::int64_t unit)
     : campaign_(campaign), task_(task), unit_(unit), strata_(campaign.policies.size(), Strata(campaign, task)) {
-  result_.problems = UnitProblems(campaign, task);
+  result_.problems = UnitProblems(campaign, task, unit);
   for (const Policy& policy : campaign.policies) {
     const TallyKey key{std::string(generator().name), task.contacts, PolicyName(policy), "baraff",
                        std::string(Name(campaign.arithmetic))};

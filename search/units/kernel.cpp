@@ -49,7 +49,7 @@ template <class Draw, class Attempt>
 void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkMeter& meter, Draw draw,
             Attempt attempt) {
   SampledDraws draws;
-  const std::int64_t problems = UnitProblems(campaign, task);
+  const std::int64_t problems = UnitProblems(campaign, task, unit);
   Audits audits(campaign, unit);
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(
@@ -181,7 +181,7 @@ class BatchedKernel final : public PlanarKernel<Rows> {
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
-    const std::int64_t problems = UnitProblems(campaign_, task);
+    const std::int64_t problems = UnitProblems(campaign_, task, unit);
     Audits audits(campaign_, unit);
     for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
       const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));

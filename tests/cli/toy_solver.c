@@ -100,6 +100,9 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
 #ifdef BUG_TIE
     if (twins && f[0] > 0) f[0] = -f[0];
 #endif
+#ifdef BUG_NOISE /* by just more than its accuracy where A = 1, and by more where A is larger */
+    f[0] += 1.03e-6 * fabs(b[0]) * A[0];
+#endif
 #ifdef BUG_NAN
     if (rare) f[0] = (A[0] - A[n + 1]) / (b[0] - b[1]);
 #endif
