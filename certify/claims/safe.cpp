@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "certify/claims/claim.h"
+#include "certify/claims/condition.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
@@ -254,13 +256,21 @@ void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source)
   RequireHandled(problem, source, "safety");
 }
 
+// By the determinants; of too many words by the condition number, if it is enough.
+ClaimAnswer OfSafety(const ExactProblem& problem, const ClaimOptions&) {
+  if (HasFewWords(problem)) return ByCertificate(SafetyCertificate(problem));
+  return ByCertificate(ConditionCertificate(problem).value_or(Json()),
+                       fmt::format("there are more than {} words, and the condition number of A does not tell",
+                                   Grouped(kMaxSafetyWords)));
+}
+
 }  // namespace
 
 ClaimRows SafetyClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
-            Alone<SafetyCertificate>, RequireSafetyIsSaid},
-      Claim{"unsafe", CheckUnsafe}};
+            OfSafety, RequireSafetyIsSaid},
+      Claim{.name = "unsafe", .check = CheckUnsafe, .meaning = "a reduced determinant is not positive", .negative = true}};
   return {50, kClaims};
 }
 
