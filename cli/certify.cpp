@@ -245,19 +245,6 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
-// ": " and what a certificate proves about solutions, "" if it speaks of something else.
-std::string ProvedOfSolutions(std::string_view name) {
-  for (const Claim& claim : AllClaims())
-    if (claim.name == name && !claim.proves.empty()) return fmt::format(": {}", claim.proves);
-  return "";
-}
-
-// Where nothing that was run shows the claim; `why`: a text, or null.
-std::string UndecidedText(const std::string& claim, const Json& why) {
-  const std::string reason = why.is_string() ? fmt::format(" ({})", why.get<std::string>()) : "";
-  return fmt::format("undecided: nothing that was run shows '{}'{}\n", claim, reason);
-}
-
 void RequireAffordable(const Json& certificate, const std::string& file) {
   const CheckReport report = CheckCertificate(certificate, file);
   if (report.accepted) return;
@@ -265,6 +252,34 @@ void RequireAffordable(const Json& certificate, const std::string& file) {
       fmt::format("{}: found a problem whose certificate no checker would take, {}: try another claim, "
                   "or a smaller problem",
                   file, report.reason));
+}
+
+// The certificate stands in a file of its own.
+Json AnswerForPrograms(Json answer, const ProblemFile& file) {
+  const Json certificate = std::move(answer["certificate"]);
+  answer.erase("certificate");
+  answer["claim"] = certificate.is_object() ? certificate["claim"] : Json();
+  answer["assumptions"] = FailedAssumptions(file);
+  return answer;
+}
+
+std::string AnswerText(const Json& answer, const CertifyOptions& o) {
+  const bool certified = answer["certificate"].is_object();
+  std::string text = fmt::format("{}{}: {}\n", certified ? o.output + ": " : "",
+                                 answer["asked"].get<std::string>(), ClaimSentence(answer));
+  if (!certified) text += fmt::format("{} is not written: there is no certificate\n", o.output);
+  if (answer.contains("policies") && answer["policies"].contains("example")) {
+    const std::string policy = answer["policies"]["example"];
+    text += fmt::format("see stiction replay {}{}\n", ShellWord(o.file),
+                        policy == "paper" ? "" : " --policy " + ShellWord(policy));
+  }
+  return text;
+}
+
+// Proved, or refuted by its certificate: done. Refuted by a run, or so under some of the policies only: not so.
+int ExitOf(const Json& answer) {
+  if (answer["state"] == Name(ClaimState::kNotDecided)) return kExitUndecided;
+  return IsWholeCertificate(answer) ? kExitDone : kExitNotSo;
 }
 
 int RunCertify(const CertifyOptions& o) {
@@ -282,24 +297,18 @@ int RunCertify(const CertifyOptions& o) {
   ProgressBar bar;
   WantedClaim wanted = o;
   wanted.factors = file.factors && !o.coq ? &*file.factors : nullptr;
-  const Json certificate = CertificateOf(wanted, file.problem, o.file, Shown(bar));
+  const Json answer = CertificateOf(wanted, file.problem, o.file, Shown(bar));
   bar.Clear();
+  const Json& certificate = answer["certificate"];
   const bool certified = certificate.is_object();
-  if (certified) RequireAffordable(certificate, o.file);
-  if (certified)
+  if (certified) {
+    RequireAffordable(certificate, o.file);
     WriteText(o.output, o.coq ? CoqText(certificate, file.problem, o.file) : JsonText(certificate, 1) + "\n");
-  const Json claim = certified ? certificate["claim"] : Json("undecided");
+  }
   // With the certificate itself on standard output, nothing else may stand there.
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  if (o.json) {
-    out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file)}}) << "\n";
-  } else if (certified) {
-    const std::string name = claim.get<std::string>();
-    out << Folded(fmt::format("{}: {}{}\n", o.output, name, ProvedOfSolutions(name)));
-  } else {
-    out << Folded(UndecidedText(o.claim, certificate));
-  }
-  return certified ? kExitDone : kExitUndecided;
+  out << (o.json ? JsonText(AnswerForPrograms(answer, file)) + "\n" : Folded(AnswerText(answer, o)));
+  return ExitOf(answer);
 }
 
 struct CheckOptions {
@@ -387,7 +396,10 @@ const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
               "what was certified; with --all, all solutions; with --safe, safety; with --robust, radii; the "
               "certificate itself where -o is -",
               R"(
-      {claim: claim | "undecided", assumptions: [assumption]} |
+      {asked: claim, state: "proved" | "disproved" | "not decided", reason?: text,
+       claim: claim | null,  // of the certificate that was written
+       policies?: {asked: integer, so: integer, certified: integer, otherwise: counters, example?: text},
+       assumptions: [assumption]} |
       {complete: truth, words: [{modes: [mode], f: [exact], unique: truth}], distinct_witnesses: integer,
        programs: integer  // linear programs
       } |

@@ -21,6 +21,7 @@
 #include "certify/request/solve_in.h"
 #include "certify/request/solve_sparse.h"
 #include "cli/command_line.h"
+#include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/program.h"
@@ -98,13 +99,10 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
   if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
-  if (result.contains("period") && !reason.empty())
-    return fmt::format("{}: from the state after {} drives on {}, the same steps every {} drives, for ever",
-                       outcome, result["start"].dump(), reason.substr(2), result["period"].dump());
-  if (result.contains("period"))
-    return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
-                       proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),
-                       proved ? ", for ever" : "");
+  if (result.contains("period")) {
+    const auto describe = [proved](const auto& answer) { return EndText(answer, proved); };
+    return std::visit(describe, solution.answer);
+  }
   if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;
   if (outcome == "singular")
     return "singular: no direction keeps what the method keeps, it cannot go on" + reason;

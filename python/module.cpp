@@ -433,21 +433,21 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
 
 // ---- Certificates ----
 
-// The text of the certificate; None where nothing that was run shows the claim or its negation.
-std::optional<std::string> CertifyProblem(PythonProblem& problem, const std::string& claim,
-                                          const std::string& policy, const std::string& law,
-                                          const Numbers& numbers) {
+// The answer, its certificate as the text of its file.
+py::object CertifyProblem(PythonProblem& problem, const std::string& claim, const std::string& policy,
+                          const std::string& law, const Numbers& numbers) {
   WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
   wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
-  const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
+  Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;
     EnumerationOptions enumeration;
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
     return CertificateOf(wanted, problem.problem(), kSource, enumeration);
   });
-  if (!certificate.is_object()) return std::nullopt;
-  return JsonText(certificate, 1) + "\n";
+  Json& certificate = answer["certificate"];
+  if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";
+  return ToPython(answer);
 }
 
 // (accepted, claim, reason).

@@ -75,12 +75,19 @@ std::string PoliciesSentence(const PolicyCounts& counts, std::string_view does, 
 Json ToJson(const ClaimAnswer& answer, std::string_view claim) {
   Json json = {{"asked", claim}, {"state", Name(answer.state)}, {"certificate", answer.certificate}};
   if (!answer.reason.empty()) json["reason"] = answer.reason;
-  if (const auto& counts = answer.policies)
+  if (const auto& counts = answer.policies) {
     json["policies"] = {{"asked", counts->asked},
                         {"so", counts->so},
                         {"certified", counts->certified},
                         {"otherwise", counts->otherwise}};
+    if (!counts->example.empty()) json["policies"]["example"] = counts->example;
+  }
   return json;
+}
+
+bool IsWholeCertificate(const Json& answer) {
+  if (answer["certificate"].is_null() || answer["state"] == Name(ClaimState::kNotDecided)) return false;
+  return answer["state"] == Name(ClaimState::kProved) || answer["certificate"]["claim"] != answer["asked"];
 }
 
 std::string ClaimSentence(const Json& answer) {

@@ -16,7 +16,9 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/loops_in_space.h"
 #include "certify/exact/properties.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
+#include "corpus/record/loop_sentence.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {
@@ -124,7 +126,8 @@ Json CyclesCertificate(const ExactProblem& problem, const std::vector<PolicyEnds
 }
 
 // A, definite, and a solution, with these runs.
-Json CounterexampleOf(const ExactProblem& problem, const LdltFactors& factors, const Json& solution, Json runs) {
+Json CounterexampleOf(const ExactProblem& problem, const LdltFactors& factors, const Json& solution,
+                      Json runs) {
   Json witness = FactorsToJson(factors);
   witness.update(solution["witness"]);
   witness["runs"] = std::move(runs);
@@ -394,8 +397,19 @@ Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-std::int64_t PoliciesNamed(const Json& certificate) {
-  return certificate.is_object() ? static_cast<std::int64_t>(CertifiedPolicies(certificate).size()) : 0;
+// Of which policies the certificate speaks, where these are not all; of one policy how its run goes on.
+void TellCertified(ClaimAnswer& answer) {
+  if (!answer.certificate.is_object()) return;
+  const std::vector<Policy> named = CertifiedPolicies(answer.certificate);
+  PolicyCounts& counts = *answer.policies;
+  counts.certified = static_cast<std::int64_t>(named.size());
+  if (counts.asked == 1) {
+    const std::string policy = PolicyName(named.front());
+    answer.reason = fmt::format("under {} {}", policy, LoopSentence(ProvedRunOf(answer.certificate, policy)));
+  } else if (counts.certified < counts.asked) {
+    answer.reason += fmt::format("; the certificate is of {} of the {}", Grouped(counts.certified),
+                                 Counted(counts.asked, "policy"));
+  }
 }
 
 // In space, of one policy: that it loops refutes that it ends in a ray, and the other way round.
@@ -422,14 +436,12 @@ ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const 
                           const ClaimedVerb& verb, const EndState& state, Prove prove, ToJson to_json) {
   const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
   ClaimAnswer answer = AnswerOfEnds(ends, verb, state);
-  answer.certificate =
-      CertificateInSpace(claim, problem, PoliciesOf(ends, state), o.limits, prove, to_json);
-  answer.policies->certified = answer.certificate.is_object() ? 1 : 0;
+  answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), o.limits, prove, to_json);
+  TellCertified(answer);
   if (answer.policies->so > 0 && answer.certificate.is_null() && answer.state == ClaimState::kProved) {
     answer.state = ClaimState::kNotDecided;
     answer.reason += ", as intervals say; no certificate of it was found";
   }
-  if (answer.policies->so > 1) answer.reason += "; the certificate is of one of them";
   if (ends.size() == 1 && answer.state == ClaimState::kDisproved)
     answer.certificate = OppositeInSpace(problem, ends.front(), o.limits);
   return answer;
@@ -444,12 +456,13 @@ ClaimAnswer OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
   const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
   ClaimAnswer answer = AnswerOfEnds(ends, kLoops, loops);
   answer.certificate = CyclesCertificate(problem, ends, o.limits);
-  answer.policies->certified = PoliciesNamed(answer.certificate);
+  TellCertified(answer);
   return answer;
 }
 
 ClaimAnswer OfRay(const ExactProblem& problem, const ClaimOptions& o) {
-  return AnswerInSpace("ray", problem, o, {"comes to a step that nothing limits", "come to a step that nothing limits"},
+  return AnswerInSpace("ray", problem, o,
+                       {"comes to a step that nothing limits", "come to a step that nothing limits"},
                        EndsIn(Outcome::kRay), ProveRayInSpace, RayToJson);
 }
 
@@ -490,7 +503,7 @@ ClaimAnswer OfCounterexample(const ExactProblem& problem, const ClaimOptions& o)
   if (existence.certificate.is_null() || existence.certificate["claim"] != "solution-exists")
     return ByCertificate(nullptr, "no solution was found, though A is definite: " + existence.reason);
   answer.certificate = CounterexampleOf(problem, *factors, existence.certificate, std::move(runs));
-  answer.policies->certified = PoliciesNamed(answer.certificate);
+  TellCertified(answer);
   return answer;
 }
 
@@ -518,8 +531,8 @@ ClaimRows CycleClaims() {
       Claim{"endless", CheckEndless, "in space the published algorithm never ends, and repeats no state",
             OfEndless, RequireLoopsInSpace},
       Claim{"counterexample", CheckCounterexample,
-            "it does, though A is symmetric and definite and there is a solution: all in one file", OfCounterexample,
-            RequirePlanar}};
+            "it does, though A is symmetric and definite and there is a solution: all in one file",
+            OfCounterexample, RequirePlanar}};
   return {70, kClaims};
 }
 

@@ -19,8 +19,8 @@ std::vector<PolicyEnds> EndsInPlane(const std::vector<Policy>& policies, const E
   std::vector<PolicyEnds> ends;
   for (PolicyClass& equal : RunPolicies(problem, policies, limits, [&limits] { return limits.Stopped(); })) {
     const Verdict& verdict = equal.verdict;
-    ends.push_back({std::move(equal.policies), verdict.outcome, verdict.reason, verdict.statistics.drives,
-                    verdict.statistics.pivots});
+    ends.push_back(PolicyEnds{std::move(equal.policies), verdict.outcome, std::string(verdict.reason),
+                              verdict.statistics.drives, verdict.statistics.steps});
   }
   return ends;
 }
@@ -30,24 +30,27 @@ std::vector<PolicyEnds> EndsInSpace(const std::vector<Policy>& policies, const E
   std::vector<PolicyEnds> ends;
   for (const Policy& policy : policies) {
     if (!PublishedReadsInSpace(policy)) {
-      ends.push_back({{policy}, Outcome::kUndecided, "this policy is not built in space"});
+      ends.push_back(PolicyEnds{{policy}, Outcome::kUndecided, "this policy is not built in space"});
       continue;
     }
     const InexactAnswer answer = RunIntervalsInSpace(problem, {policy, {}, limits});
-    ends.push_back({{policy}, answer.outcome, answer.reason, ValueOf(answer.counters, "drives"),
-                    ValueOf(answer.counters, "steps")});
+    ends.push_back(PolicyEnds{{policy},
+                              answer.outcome,
+                              std::string(answer.reason),
+                              ValueOf(answer.counters, "drives"),
+                              ValueOf(answer.counters, "steps")});
   }
   return ends;
 }
 
-std::string NamesOf(const PolicyEnds& ends) {
+std::string NameOf(const PolicyEnds& ends) {
   const auto paper = std::ranges::find(ends.policies, Policy{});
   return PolicyName(paper == ends.policies.end() ? ends.policies.front() : *paper);
 }
 
 // Of one policy.
 std::string EndSentence(const PolicyEnds& end, ClaimState state, const ClaimedVerb& verb) {
-  const std::string under = "under " + NamesOf(end);
+  const std::string under = "under " + NameOf(end);
   if (state == ClaimState::kProved) return fmt::format("{} the published algorithm {}", under, verb.one);
   if (end.outcome == Outcome::kLimit) return fmt::format("{} the run is out of {}", under, end.reason);
   if (state == ClaimState::kNotDecided)
@@ -86,7 +89,7 @@ ClaimAnswer AnswerOfEnds(const std::vector<PolicyEnds>& ends, const ClaimedVerb&
     counts.open += known == ClaimState::kNotDecided ? count : 0;
     counts.otherwise[std::string(Name(end.outcome))] += count;
     const PolicyEnds*& first = known == ClaimState::kDisproved ? otherwise : unsure;
-    if (first == nullptr || NamesOf(end) == "paper") first = &end;
+    if (first == nullptr || NameOf(end) == "paper") first = &end;
   }
   ClaimAnswer answer;
   answer.state = counts.State();
@@ -95,9 +98,9 @@ ClaimAnswer AnswerOfEnds(const std::vector<PolicyEnds>& ends, const ClaimedVerb&
   } else {
     answer.reason = PoliciesSentence(counts, verb.one, verb.more);
     const PolicyEnds* shown = otherwise != nullptr ? otherwise : unsure;
-    if (shown != nullptr)
-      answer.reason += fmt::format("; {}", EndSentence(*shown, state(*shown), verb));
+    if (shown != nullptr) answer.reason += fmt::format("; {}", EndSentence(*shown, state(*shown), verb));
   }
+  if (const PolicyEnds* example = otherwise != nullptr ? otherwise : unsure) counts.example = NameOf(*example);
   answer.policies = std::move(counts);
   return answer;
 }

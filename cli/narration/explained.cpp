@@ -24,6 +24,7 @@
 #include "cli/narration/over_intervals.h"
 #include "cli/narration/surveyed.h"
 #include "corpus/plain_text.h"
+#include "corpus/record/loop_sentence.h"
 #include "solver/linear/elimination.ipp"
 
 namespace stiction {
@@ -84,7 +85,11 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
   found["loops"] = ends.at(looping[0]);
   found["loops"]["policy"] = wanted.policy = looping[0];
   const auto proved = OverIntervals(problem, PathRequestOf(wanted, problem, o.file), Outcome::kCycle);
-  found["loops"]["proved"] = problem.dimension == 2 || (proved && IsLoop(proved->outcome));
+  const bool by_intervals = proved && IsLoop(proved->outcome);
+  found["loops"]["proved"] = problem.dimension == 2 || by_intervals;
+  // Intervals tell where the loop begins, too; over doubles it begins where rounded states recur.
+  if (by_intervals) found["loops"].update(EndToJson(*proved));
+  found["loops"]["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
   return found;
 }
 
@@ -147,12 +152,15 @@ Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::s
     if (claim.certify == nullptr) continue;
     try {
       claim.require(problem, o.file);
-      const Json certificate = claim.certify(problem, options);
+      const Json answer = ToJson(claim.certify(problem, options), claim.name);
+      const Json& certificate = answer["certificate"];
       constexpr std::string_view kOfRuns[] = {"cycle", "ray", "endless", "counterexample"};
       const bool of_runs = std::ranges::find(kOfRuns, claim.name) != std::end(kOfRuns);
       claims.push_back(
           {{"claim", claim.name},
            {"meaning", claim.meaning},
+           {"state", answer["state"]},
+           {"says", ClaimSentence(answer)},
            {"certificate", certificate.is_object() ? certificate["claim"] : Json()},
            {"command", fmt::format("stiction certify {} --claim {}{} -o {}", ShellWord(o.file), claim.name,
                                    of_runs && policy != "paper" ? " --policy " + policy : "",
@@ -277,11 +285,10 @@ std::string PoliciesText(const Json& policies) {
                                        fmt::join(parts, ", "));
   const Json& loop = policies["loops"];
   if (loop.is_null()) return text;
-  const char* unit = loop["outcome"] == "cycle" ? "drives" : "steps";
-  return text + fmt::format(" Under {} the state after {} {} recurs every {} {}, for ever{}.",
-                            loop["policy"].get<std::string>(), loop["start"].dump(), unit,
-                            loop["period"].dump(), unit,
-                            loop["proved"] == true ? "" : " as far as rounded numbers tell");
+  const ProvedRun run{loop["kind"] == "box" ? ProofKind::kBox : ProofKind::kStates, loop["start"],
+                      loop["period"]};
+  return text + fmt::format(" Under {} {}{}.", loop["policy"].get<std::string>(), LoopSentence(run),
+                            loop["proved"] == true ? "" : ", as far as rounded numbers tell");
 }
 
 std::string SurenessText(const Json& found) {
@@ -347,14 +354,13 @@ std::string LineOfCommand(const Json& command) { return "    " + command.get<std
 std::string CommandsText(const Json& found) {
   std::string text = found.contains("claims") ? "\nWhat can be certified\n" : "";
   for (const Json& claim : found.value("claims", Json::array())) {
-    if (claim["certificate"].is_null()) continue;
-    const std::string name = claim["certificate"], meaning = claim["meaning"];
-    const bool any = claim["claim"] == "existence";  // whichever certificate of solutions there is
-    if (!any && name == CertificateFor(found, "existence")) continue;
-    text += Paragraph(any                      ? name + ": whether there is a solution"
-                      : name == claim["claim"] ? fmt::format("{}: {}", name, meaning)
-                                               : fmt::format("{}: it is false that {}", name, meaning)) +
-            LineOfCommand(claim["command"]);
+    const bool certified = claim["certificate"].is_string();
+    const bool told = claim["claim"] != "existence" && certified &&
+                      claim["certificate"] == CertificateFor(found, "existence");
+    if (told) continue;
+    text +=
+        Paragraph(fmt::format("{}: {}", claim["claim"].get<std::string>(), claim["says"].get<std::string>()));
+    if (certified) text += LineOfCommand(claim["command"]);
   }
   text += "\nWhat to type next\n";
   for (const Json& each : found["next"])

@@ -56,12 +56,12 @@ Html LoopSentence(const Counts& sums) {
   if (loops == 0)
     return Sentence(
         "No loop was seen.",
-        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate), "claim");
+        fmt::format("No run that was repeated exactly goes on for ever: {} in a million runs.", rate), "claim");
   return Sentence(
       "It does not always end.",
       fmt::format(
-          "{} of {} runs repeat a state, in exact arithmetic or, in space, by intervals, and so go on for "
-          "ever: {} in a million runs.",
+          "{} of {} runs go on for ever: {} in a million. In the plane they repeat a state, exactly; in space, "
+          "as intervals prove, they repeat one or never leave a box.",
           Grouped(loops), Grouped(sums.runs), rate),
       "claim");
 }

@@ -14,6 +14,7 @@
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/store/finding_words.h"
 #include "corpus/store/store_totals.h"
 #include "reports/tables/campaign_tables.h"
 
@@ -91,9 +92,9 @@ std::string LoopsText(const StoreTotals& t) {
                                  PoliciesText(t.record), RateSentence(0, runs)));
   }
   std::string text =
-      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
-                            "run recurs, in exact "
-                            "arithmetic or, in space, by intervals: so it never ends.",
+      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. In the plane a state "
+                            "of such a run recurs, exactly; in space, as intervals prove, one does or the run "
+                            "never leaves a box: so it never ends.",
                             PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
   const std::string grid =
       t.finished_loops == 0
@@ -202,9 +203,7 @@ std::string FindingText(const Finding& finding) {
   const auto number = [&facts](const char* key) { return facts.at(key).get<std::int64_t>(); };
   std::string text = Counted(number("contacts"), "contact");
   if (IsLoopKind(finding.kind)) {
-    const std::string unit = finding.exact_outcome == Name(Outcome::kStall) ? "step" : "drive";
-    text += fmt::format(", the state after {} recurs {} later", Counted(number("start"), unit),
-                        Counted(number("period"), unit));
+    text += ", " + LoopClause(ProvedRunOf(finding, FindingForm::kMinimized), UnitOfLoop(finding));
   } else {
     text += ", " + InWords(finding.kind);
   }
@@ -269,14 +268,14 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
       std::find_if(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
   if (first == t.simplest.end()) return "";
   const std::string problem = "report/findings/" + FileName(first->signature) + ".json";
-  const std::string policy = first->policy == "paper" ? "" : " --policy " + ShellWord(first->policy);
+  const std::string options = ReplayOptionsOf(*first);
   std::string text = "\n" + Heading("The simplest loop: " + first->signature);
   text += Paragraph(FindingText(*first) + ".") +
           ProblemText(ParseProblem(first->minimized, first->signature).problem);
   text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
   text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
-  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, policy));
-  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, policy));
+  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, options));
+  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, options));
   text += Paragraph("The problem as the search drew it:");
   text +=
       Command(fmt::format("{} problem {} {} {}", ProgramName(), ShellWord(file), first->unit, first->index));
