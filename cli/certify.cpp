@@ -18,7 +18,9 @@
 #include "certify/request/request.h"
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
+#include "cli/narration/safety.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/scene_file.h"
@@ -41,27 +43,21 @@ EnumerationOptions Shown(ProgressBar& bar) {
   EnumerationOptions options;
   options.progress = [&bar](const EnumerationProgress& progress) {
     if (progress.prefixes % 64 == 0) {
-      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {} linear programs, {} solutions",
-                                             100 * progress.decided, progress.programs, progress.solutions));
+      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {}, {}", 100 * progress.decided,
+                                             Counted(progress.programs, "linear program"),
+                                             Counted(progress.solutions, "solution")));
     }
     return true;
   };
   return options;
 }
 
-// ["slip-", "stick"] -> "slip- stick".
-std::string WordText(const Json& word) {
-  std::string text;
-  for (const Json& mode : word) text += (text.empty() ? "" : " ") + mode.get<std::string>();
-  return text;
-}
-
 std::string SolutionsText(const Enumeration& modes) {
   std::string text = fmt::format(
-      "{} of the contact modes {} solutions, with {} distinct witness{}{} ({} linear programs)\n",
-      modes.solutions.size(), modes.solutions.size() == 1 ? "has" : "have", modes.distinct_witnesses,
-      modes.distinct_witnesses == 1 ? "" : "es",
-      modes.end == EnumerationEnd::kComplete ? "" : " so far: not all were looked at", modes.programs);
+      "{} of the contact modes {} solutions, with {}{} ({})\n", modes.solutions.size(),
+      modes.solutions.size() == 1 ? "has" : "have", Counted(modes.distinct_witnesses, "distinct witness"),
+      modes.end == EnumerationEnd::kComplete ? "" : " so far: not all were looked at",
+      Counted(modes.programs, "linear program"));
   for (const WordSolution& solution : modes.solutions)
     text += fmt::format("  {}: f = {}{}\n", WordText(WordToJson(solution.word)),
                         ListText(solution.f, FractionText::kShort), solution.unique ? "" : ", and others");
@@ -94,106 +90,17 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
 
 // ---- Safety ----
 
-Json ThresholdToJson(const SafetyThreshold& threshold) {
-  Json polynomial = Json::array();
-  for (const Rational& coefficient : threshold.polynomial) polynomial.push_back(ToString(coefficient));
-  return {{"low", ToString(threshold.low)},
-          {"high", ToString(threshold.high)},
-          {"word", WordToJson(threshold.word)},
-          {"polynomial", polynomial}};
-}
-
-// By the determinants of all words, and for which uniform friction they are positive.
-void AddWords(const ExactProblem& problem, Json& result) {
-  result["safe"] = !DecideSafety(problem).unsafe_word.has_value();
-  if (const auto threshold = FindSafetyThreshold(problem)) result["threshold"] = ThresholdToJson(*threshold);
-}
-
-// What can be said of a problem that is not safe since determinants vanish.
-void AddWeakSafety(const ExactProblem& problem, Json& result) {
-  const WeakSafety weak = DecideWeakSafety(problem);
-  result["weakly_safe"] = !weak.negative_word;
-  result["vanishing_words"] = weak.vanishing;
-  if (weak.negative_word) result["negative_word"] = WordToJson(*weak.negative_word);
-  result["limit"] = {{"safe", !weak.limit_word}};
-  if (weak.limit_word) result["limit"]["word"] = WordToJson(*weak.limit_word);
-  if (const auto threshold = FindLimitThreshold(problem)) {
-    result["limit"]["threshold"] = ThresholdToJson(*threshold);
-  }
-}
-
-// By the condition number of A after scaling: any number of contacts.
-void AddCondition(const ExactProblem& problem, Json& result) {
-  const auto bound = FindConditionBound(problem, FrictionWeights::kUniform);
-  if (!bound) return;
-  const auto mu = bound->SafeFriction();
-  result["condition"] = {{"number", ToString(Rational(bound->most / bound->least))},
-                         {"scaling", VectorToJson(bound->scaling)},
-                         {"mu", mu ? Json(ToString(*mu)) : Json()}};
-}
-
-std::string ThresholdText(const Json& threshold) {
-  return fmt::format("mu* in [{}, {}], by {}", threshold["low"].get<std::string>(),
-                     threshold["high"].get<std::string>(), WordText(threshold["word"]));
-}
-
-std::string WeakSafetyText(const Json& result) {
-  const Json& limit = result["limit"];
-  std::string text = fmt::format("{} words of determinant zero; ", result["vanishing_words"].get<int>());
-  text += result["weakly_safe"].get<bool>()
-              ? "none negative, so weakly safe: complete driving neither folds nor descends\n"
-              : fmt::format("negative: {}\n", WordText(result["negative_word"]));
-  text += limit["safe"].get<bool>()
-              ? "safe in the limit: A + eps I is safe for all small eps > 0\n"
-              : fmt::format("not safe in the limit: A + eps I is unsafe by {}\n", WordText(limit["word"]));
-  return text + (limit.contains("threshold")
-                     ? "uniform mu: safe in the limit below " + ThresholdText(limit["threshold"]) + "\n"
-                     : "safe in the limit for every uniform mu > 0\n");
-}
-
-std::string ConditionText(const Json& condition) {
-  const Json& mu = condition["mu"];
-  if (mu.is_null()) return "its condition alone: safe for every uniform mu\n";
-  return fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
-}
-
-std::string SafetyText(const Json& result, bool has_words) {
-  const Json& safe = result["safe"];
-  std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
-                     : safe.get<bool>() ? "safe: the determinants of all words are positive; complete driving "
-                                          "has no fold, and the published\n"
-                                          "algorithm under apex=suspended, ties apart, nothing to give up\n"
-                                        : "unsafe: the determinant of a word is zero or negative; where one is "
-                                          "negative, complete driving may\n"
-                                          "fold, and the published algorithm give up\n";
-  if (result.contains("threshold")) {
-    text += "uniform mu: safe below " + ThresholdText(result["threshold"]) + "\n";
-  } else if (has_words) {
-    text += "safe for every uniform mu > 0\n";
-  }
-  if (result.contains("limit")) text += WeakSafetyText(result);
-  if (has_words && !safe.get<bool>() && !result.contains("limit")) {
-    text += "weakly safe, safe in the limit: not looked at, too many words\n";
-  }
-  if (result.contains("condition")) text += ConditionText(result["condition"]);
-  return text;
-}
-
 int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   RequireHandled(file.problem, o.file, "safety");
-  const bool has_words = HasFewWords(file.problem);
-  const auto by_condition = ConditionCertificate(file.problem);
-  Json result = {{"safe", by_condition ? Json(true) : Json()}};
-  if (has_words) AddWords(file.problem, result);
-  if (result["safe"] == false && HasFewWords(file.problem, kMaxWeakSafetyWords)) {
-    AddWeakSafety(file.problem, result);
-  }
-  AddCondition(file.problem, result);
+  const Json result = SafetyOf(file.problem);
   const bool decided = !result["safe"].is_null();
-  if (!o.output.empty() && decided)
-    WriteText(o.output, JsonText(has_words ? SafetyCertificate(file.problem) : *by_condition, 1) + "\n");
+  if (!o.output.empty() && decided) {
+    const bool few = HasFewWords(file.problem);
+    const Json certificate = few ? SafetyCertificate(file.problem) : *ConditionCertificate(file.problem);
+    WriteText(o.output, JsonText(certificate, 1) + "\n");
+  }
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << (o.json ? JsonText(result) + "\n" : Folded(SafetyText(result, has_words)));
+  out << (o.json ? JsonText(result) + "\n" : Folded(SafetyText(result)));
   return decided ? kExitDone : kExitUndecided;
 }
 
@@ -403,7 +310,8 @@ const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
       {complete: truth, words: [{modes: [mode], f: [exact], unique: truth}], distinct_witnesses: integer,
        programs: integer  // linear programs
       } |
-      {safe: truth | null,  // null: undecided
+      {safe: truth | null,  // null: not decided
+       by?: "words" | "condition",
        condition?: {number: exact, scaling: [exact], mu: exact | null}, threshold?: threshold,
        weakly_safe?: truth, vanishing_words?: integer, negative_word?: [mode],
        limit?: {safe: truth, word?: [mode], threshold?: threshold}} |

@@ -99,7 +99,8 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
     const std::string name = NumberedFile(o.output, i, problems.size());
     WriteText(name, Print(problems[i]));
     const auto many = problem.contacts.size();
-    text += fmt::format("{}: {} contacts, {} rows\n", name, many, problem.rows());
+    text += fmt::format("{}: {}, {}\n", name, Counted(static_cast<std::int64_t>(many), "contact"),
+                        Counted(problem.rows(), "row"));
     written.push_back({{"file", name}, {"contacts", many}, {"rows", problem.rows()}});
   }
   if (model.islands.empty()) text += "no contacts and no joints: nothing to solve\n";

@@ -242,8 +242,8 @@ int RunSearchVerb(const SearchVerb& asked) {
   if (o.store.empty()) o.store = StoreFor(IdentityOf(campaign));
   SearchOptions options = OptionsOf(o);
   options.started = [&] {
-    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}{}\n", TimeOfDay(), campaign.seed,
-               options.threads, o.shard, o.store, RoundedText(campaign, o.problems));
+    fmt::print(std::cerr, "{} seed {}, {}, shard {}, store {}{}\n", TimeOfDay(), campaign.seed,
+               Counted(options.threads, "thread"), o.shard, o.store, RoundedText(campaign, o.problems));
   };
   NightLog log(options.minutes);
   std::int64_t untold = 0;
@@ -309,9 +309,9 @@ std::string Changes(const Look& before, const Look& now, std::int64_t most) {
         fmt::format("{}{}{}", groups > 1 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
   }
   if (groups > most) names += ", ...";
-  return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
-                     Grouped(now.problems - before.problems),
-                     Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
+  return fmt::format(
+      "{}, {} more; {}, {} new{}", Counted(now.problems, "run"), Grouped(now.problems - before.problems),
+      Counted(static_cast<std::int64_t>(now.signatures.size()), "group"), Grouped(groups), names);
 }
 
 // On a terminal: all of it anew, with what is new above the summary, cut to the height.
@@ -512,7 +512,8 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
       ++refused;
     }
   }
-  fmt::print(std::cerr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
+  fmt::print(std::cerr, "left out in all: {}, {}\n", Counted(static_cast<std::int64_t>(left_out), "row"),
+             Counted(static_cast<std::int64_t>(refused), "whole store"));
   if (refused == stores.size())
     throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
 }

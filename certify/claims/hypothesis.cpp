@@ -131,9 +131,10 @@ bool ShowHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
 ClaimAnswer OfHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
   if (ShowHypothesis(problem, options))
     return ByCertificate(MakeCertificate("h", problem, FactorsWitness(*options.factors)));
-  return ByCertificate(HypothesisCertificate(problem),
-                       "it hangs on the sign of b'v at a point of a friction cone that is not rational, or at its "
-                       "edge");
+  return ByCertificate(
+      HypothesisCertificate(problem),
+      "it hangs on the sign of b'v at a point of a friction cone that is not rational, or at its "
+      "edge");
 }
 
 // That there is none refutes it; that the theorem does not speak of a problem refutes nothing.
@@ -156,7 +157,10 @@ ClaimAnswer OfExists(const ExactProblem& problem, const ClaimOptions& options) {
 ClaimRows HypothesisClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0", OfHypothesis},
-      Claim{.name = "not-h", .check = CheckNotHypothesis, .meaning = "b'v < 0 for some v in the friction cones with A v = 0", .negative = true},
+      Claim{.name = "not-h",
+            .check = CheckNotHypothesis,
+            .meaning = "b'v < 0 for some v in the friction cones with A v = 0",
+            .negative = true},
       Claim{"exists", CheckExists,
             "psd and h: by a theorem there is a solution, of any size; no forces are given", OfExists,
             RequireTheoremSpeaksOf,

@@ -233,13 +233,23 @@ ClaimAnswer OfRange(const ExactProblem& problem, const ClaimOptions& options) {
 ClaimRows MatrixClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"symmetric", CheckSymmetric, "A = A'", Alone<SymmetryCertificate>},
-      Claim{.name = "not-symmetric", .check = CheckNotSymmetric, .meaning = "an entry of A is unlike its mirror", .negative = true},
+      Claim{.name = "not-symmetric",
+            .check = CheckNotSymmetric,
+            .meaning = "an entry of A is unlike its mirror",
+            .negative = true},
       Claim{"psd", CheckSemidefinite, "A is positive semidefinite", OfSemidefinite},
-      Claim{.name = "not-psd", .check = CheckNotSemidefinite, .meaning = "x'Ax < 0 for some x", .negative = true},
+      Claim{
+          .name = "not-psd", .check = CheckNotSemidefinite, .meaning = "x'Ax < 0 for some x", .negative = true},
       Claim{"definite", CheckDefinite, "A is positive definite", Alone<DefiniteCertificate>},
-      Claim{.name = "not-definite", .check = CheckNotDefinite, .meaning = "x'Ax <= 0 for some x that is not zero", .negative = true},
+      Claim{.name = "not-definite",
+            .check = CheckNotDefinite,
+            .meaning = "x'Ax <= 0 for some x that is not zero",
+            .negative = true},
       Claim{"in-range", CheckInRange, "b is in the range of A", OfRange},
-      Claim{.name = "not-in-range", .check = CheckNotInRange, .meaning = "some y has y'A = 0 and y'b /= 0", .negative = true}};
+      Claim{.name = "not-in-range",
+            .check = CheckNotInRange,
+            .meaning = "some y has y'A = 0 and y'b /= 0",
+            .negative = true}};
   return {30, kClaims};
 }
 

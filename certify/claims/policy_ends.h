@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the published algorithm ends under each of the policies of which something is claimed: exactly in the plane,
-// in space as intervals prove.
+// How the published algorithm ends under each of the policies of which something is claimed: exactly in the
+// plane, in space as intervals prove.
 
 #ifndef STICTION_CERTIFY_CLAIMS_POLICY_ENDS_H_
 #define STICTION_CERTIFY_CLAIMS_POLICY_ENDS_H_
@@ -21,7 +21,7 @@ namespace stiction {
 struct PolicyEnds {
   std::vector<Policy> policies;
   Outcome outcome = Outcome::kUndecided;
-  std::string reason = {};      // of a run that is out of a budget, or undecided
+  std::string reason = {};  // of a run that is out of a budget, or undecided
   std::int64_t drives = 0, steps = 0;
 };
 

@@ -270,7 +270,10 @@ ClaimRows SafetyClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
             OfSafety, RequireSafetyIsSaid},
-      Claim{.name = "unsafe", .check = CheckUnsafe, .meaning = "a reduced determinant is not positive", .negative = true}};
+      Claim{.name = "unsafe",
+            .check = CheckUnsafe,
+            .meaning = "a reduced determinant is not positive",
+            .negative = true}};
   return {50, kClaims};
 }
 

@@ -104,7 +104,8 @@ ClaimAnswer OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
 ClaimRows SolutionClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"existence", nullptr,
-            "there is a solution: solution-exists, in space by default coulomb-solution (--law), exists; or no-solution",
+            "there is a solution: solution-exists, in space by default coulomb-solution (--law), exists; or "
+            "no-solution",
             OfExistence},
       Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
             OfSolution, RequireAny, "forces that meet all conditions"},

@@ -15,14 +15,15 @@
 #include "certify/claims/claims.h"
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
-#include "certify/claims/safety_threshold.h"
 #include "certify/exact/answer_json.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/over_intervals.h"
+#include "cli/narration/safety.h"
 #include "cli/narration/surveyed.h"
+#include "corpus/grouped.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/loop_sentence.h"
 #include "solver/linear/elimination.ipp"
@@ -93,19 +94,28 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
   return found;
 }
 
+// How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
+Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
+  Wanted wanted;
+  wanted.method = method;
+  wanted.options.limits = o.limits;
+  SolveRequest request = RequestOf(wanted, file.problem, o.file);
+  request.factors = file.factors ? &*file.factors : nullptr;
+  Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
+  const auto add = [&run](const auto& answer) {
+    run.update(EndToJson(answer));
+    if (answer.moves_elsewhere) run["unique_accelerations"] = false;
+  };
+  std::visit(add, SolveAsked(file.problem, request, o.file).answer);
+  return run;
+}
+
 // How every method ends that is built for such a problem, in its usual arithmetic.
-Json MethodsOn(const ExactProblem& problem, const ExplainOptions& o) {
+Json MethodsOn(const ProblemFile& file, const ExplainOptions& o) {
   Json runs = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
-    Wanted wanted;
-    wanted.method = facts.name;
-    wanted.options.limits = o.limits;
     try {
-      const SolveRequest request = RequestOf(wanted, problem, o.file);
-      const Solution solution = SolveAsked(problem, request, o.file);
-      Json run = {{"method", facts.name}, {"arithmetic", Name(request.arithmetic)}};
-      run.update(std::visit([](const auto& answer) { return EndToJson(answer); }, solution.answer));
-      runs.push_back(std::move(run));
+      runs.push_back(EndOf(facts.name, file, o));
     } catch (const InputError&) {  // not built for such problems, or a number is none of the arithmetic's
     }
   }
@@ -131,8 +141,9 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
   const bool handled =
       problem.dimension == 2 && !found["kinds"].contains("bilateral") && !found["kinds"].contains("sliding");
   if (handled && HasFewWords(problem, kFewWords)) {
-    const auto threshold = FindSafetyThreshold(problem);
-    found["safe_below"] = threshold ? Json(ToString(threshold->low)) : Json();
+    found["safety"] = SafetyOf(problem);
+    const Json& safety = found["safety"];
+    found["safe_below"] = safety.contains("threshold") ? safety["threshold"]["low"] : Json();
   }
   const Json& loop = found["policies"]["loops"];
   if (!handled || loop.is_null()) return;
@@ -141,12 +152,14 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
 }
 
 // Every claim that is made of such problems: the certificate that it gets, or null, and the command.
-Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::string& policy) {
+Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::string& policy) {
+  const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   ClaimOptions options;
   options.policies = ParsePolicies(policy);
   options.limits = o.limits;
   options.enumeration.programs = kPrograms;
+  options.factors = file.factors ? &*file.factors : nullptr;
   const std::string stem = std::filesystem::path(o.file).stem().string();
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;
@@ -215,14 +228,15 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
     const ExactProblem& problem = file->problem;
     std::string policy = "paper";
     found["rank"] = RankOf(problem);
-    found["methods"] = MethodsOn(problem, o);
+    found["methods"] = MethodsOn(*file, o);
+    found["solve"] = EndOf(kAutomatic, *file, o);
     if (problem.contacts.size() <= kFewContacts) {
       found["policies"] = PoliciesOn(problem, o);
       if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
       AddMargins(problem, o, found);
       if (const Json& loop = found["policies"]["loops"]; !loop.is_null()) policy = loop["policy"];
     }
-    found["claims"] = ClaimsOf(problem, o, policy);
+    found["claims"] = ClaimsOf(*file, o, policy);
   }
   found["next"] = NextOf(found, o.file);
   return found;
@@ -231,10 +245,6 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
 namespace {
 
 // ---- In words --------------------------------------------------------------------------------------
-
-std::string NumberOf(std::int64_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 std::string BetweenText(const Json& ends) {
   const auto text = [](const Json& end) {
@@ -247,10 +257,10 @@ std::string ProblemText(const Json& found) {
   const Json& facts = found["survey"];
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(count.dump() + " " + kind);
-  std::string text = fmt::format("{} {}: {}", NumberOf(facts["contacts"], "contact"),
+  std::string text = fmt::format("{} {}: {}", Counted(facts["contacts"], "contact"),
                                  facts["dimension"] == 3 ? "in space" : "in the plane", fmt::join(kinds, ", "));
   if (found.contains("mu")) text += ", mu " + BetweenText(found["mu"]);
-  text += fmt::format(". A has {}", NumberOf(facts["rows"], "row"));
+  text += fmt::format(". A has {}", Counted(facts["rows"], "row"));
   if (found.contains("rank")) text += ", rank " + found["rank"].dump();
   if (found.contains("diagonal")) text += fmt::format(", A_ii {}", BetweenText(found["diagonal"]));
   return text + fmt::format(". The problem {}.", AssumptionsMetText(facts));
@@ -279,10 +289,9 @@ std::string ExistenceText(const Json& found) {
 std::string PoliciesText(const Json& policies) {
   std::vector<std::string> parts;
   for (const auto& [outcome, count] : policies["outcomes"].items())
-    parts.push_back(fmt::format("{} {}", outcome, count.dump()));
+    parts.push_back(fmt::format("{} {}", outcome, Grouped(count.get<std::int64_t>())));
   const std::string text = fmt::format("The published algorithm under {}, readings of its text: {}.",
-                                       policies["all"] == 1 ? "1 policy" : policies["all"].dump() + " policies",
-                                       fmt::join(parts, ", "));
+                                       Counted(policies["all"], "policy"), fmt::join(parts, ", "));
   const Json& loop = policies["loops"];
   if (loop.is_null()) return text;
   const ProvedRun run{loop["kind"] == "box" ? ProofKind::kBox : ProofKind::kStates, loop["start"],
@@ -309,13 +318,7 @@ std::string SurenessText(const Json& found) {
       text += solutions["unique"] == true ? "Its forces are the only ones. "
                                           : "There are other forces that meet all conditions. ";
   }
-  const std::string safe = CertificateFor(found, "safe");
-  if (safe == "safe")
-    text +=
-        "A is safe: complete driving never turns back, and, ties apart, the published algorithm under "
-        "apex=suspended ends. ";
-  if (safe == "unsafe")
-    text += "A is not safe: complete driving may turn back, where the published algorithm gives up. ";
+  if (found.contains("safety")) text += fmt::format("A is {}. ", SafetySentence(found["safety"]));
   if (found.contains("safe_below"))
     text += found["safe_below"].is_null() ? "With one mu for all contacts it is safe, whatever mu is. "
             : found["safe_below"] == "0"  ? "With one mu for all contacts it is safe for no mu. "
@@ -326,7 +329,11 @@ std::string SurenessText(const Json& found) {
                 ? "No distance is proved within which the loop stays one. "
                 : fmt::format("The loop stays one while A, b and mu move by up to {} of their size, proved. ",
                               found["radius"].get<std::string>());
-  return text.empty() ? "Not looked at: in space, or with so many contacts." : text;
+  if (found.contains("solve") && found["solve"].contains("unique_accelerations"))
+    text += "They are not unique: others with other accelerations are known, and `solve` gives those at rest. ";
+  if (!found.contains("solutions"))
+    text += "Whether other forces obey the law, too, is not looked for in space, or with so many contacts. ";
+  return text;
 }
 
 std::string MethodsText(const Json& found) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
@@ -65,7 +66,7 @@ std::string HeadLine(const StoreTotals& t, const Store& store, const std::string
   std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
                                  Counted(t.units, "unit"), store.identity().seed);
   if (t.counts.runs != t.problems)
-    text += fmt::format("; {} runs, each problem under every policy asked for", Grouped(t.counts.runs));
+    text += fmt::format("; {}, each problem under every policy asked for", Counted(t.counts.runs, "run"));
   return Paragraph(text, 0);
 }
 
@@ -123,10 +124,17 @@ std::string FailuresTable(const StoreTotals& t) {
   return table.rows.empty() ? Paragraph("No run fails in exact arithmetic.") : ToText(table);
 }
 
+// What a label of doubles says, which is no disagreement of the exact methods.
+std::string OfDoublesText(const std::string& label) {
+  const std::string words = InWords(label);
+  return IsOfDoubles(KindOf(label + "-")) && words != label ? fmt::format(" ({})", words) : "";
+}
+
 // Groups of findings, by kind.
 std::string GroupsText(const StoreTotals& t) {
   std::vector<std::string> parts;
-  for (const auto& [label, count] : t.groups) parts.push_back(fmt::format("{} of {}", Grouped(count), label));
+  for (const auto& [label, count] : t.groups)
+    parts.push_back(fmt::format("{} of {}{}", Grouped(count), label, OfDoublesText(label)));
   return parts.empty() ? Paragraph("No findings.")
                        : Paragraph(fmt::format("Groups of findings: {}.", fmt::join(parts, ", ")));
 }
@@ -146,9 +154,10 @@ std::string ExistenceText(const StoreTotals& t) {
                                           : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
                               Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
   }
+  const std::string disagree =
+      t.disagreements == 0 ? "they never disagree with each other" : Counted(t.disagreements, "disagreement");
   text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
-                                Counted(a.compared, "problem"), Grouped(a.enumerated),
-                                Counted(a.disagreements, "disagreement")));
+                                Counted(a.compared, "problem"), Grouped(a.enumerated), disagree));
   if (a.safety_decided > 0)
     text += Paragraph(
         fmt::format("{} of {} {} safe (all reduced determinants are positive); under apex=suspended the "
