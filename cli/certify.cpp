@@ -280,6 +280,10 @@ std::vector<AllowedValue> ClaimChoices() {
 
 const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
+  verb.footer =
+      "A claim is proved; or disproved, by the certificate of its negation (exit 0), or by a run that ends "
+      "otherwise, "
+      "as where it holds under some of several policies only (exit 1); or not decided (exit 3).";
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
   verb.Option("--claim", o.claim, "what to certify, or its negation if that holds").Choices(ClaimChoices());

@@ -85,9 +85,9 @@ void RequireForSpace(const MinimizeVerb& o, const Policy& policy) {
 
 // How it loops, as `replay` says it.
 std::string EndOfMinimized(const ExactProblem& problem, const PublishedOptions& published) {
-  const std::string under = fmt::format("under {} it is a ", PolicyName(published.policy));
-  if (problem.dimension == 3) return under + Describe(RunIntervalsInSpace(problem, published)) + "\n";
-  return under + Describe(RunExact(problem, published).verdict) + "\n";
+  const std::string under = fmt::format("under {}, ", PolicyName(published.policy));
+  if (problem.dimension == 3) return under + Describe(RunIntervalsInSpace(problem, published));
+  return under + Describe(RunExact(problem, published).verdict);
 }
 
 int RunMinimize(const MinimizeVerb& o) {
@@ -138,14 +138,15 @@ int RunMinimize(const MinimizeVerb& o) {
                      {"before", size(before)},
                      {"after", size(after)},
                      {"candidates", minimized.candidates},
-                     {"accepted", minimized.accepted}})
+                     {"accepted", minimized.accepted},
+                     {"says", loop}})
         << "\n";
   } else {
     out << Folded(fmt::format("{}: {}, {}, {}; was {}, {}, {}. Tried {}, took {}.\n", keep,
                               Counted(after.contacts, "contact"), Counted(after.nonzeros, "nonzero"),
                               Counted(after.bits, "bit"), before.contacts, before.nonzeros, before.bits,
                               minimized.candidates, minimized.accepted) +
-                  loop);
+                  (loop.empty() ? "" : loop + "\n"));
   }
   return kExitDone;
 }
@@ -167,7 +168,8 @@ const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Prints(o.json, "how much smaller a problem has become; the problem itself where -o is -",
-              "{keep: text, before: size, after: size, candidates: integer, accepted: integer} | problem");
+              "{keep: text, before: size, after: size, candidates: integer, accepted: integer,\n"
+              " says: text  // how it loops; empty of what does not\n} | problem");
   AddLimits(verb, o.limits);
 });
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "certify/request/solve_sparse.h"
@@ -217,7 +218,9 @@ Answered SolveOne(const SolveVerb& o) {
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  // `auto` takes those of a scene for nothing that it would not do without.
+  const auto factors = o.method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   std::atomic<bool> stopped = false;
   const std::jthread timer = StopAfter(o.seconds, stopped);
   request.options.limits.stop = &stopped;

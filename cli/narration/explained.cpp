@@ -16,6 +16,7 @@
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/all_policies.h"
@@ -23,9 +24,12 @@
 #include "cli/narration/over_intervals.h"
 #include "cli/narration/safety.h"
 #include "cli/narration/surveyed.h"
+#include "corpus/formats/read_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/plain_text.h"
+#include "corpus/record/kinds.h"
 #include "corpus/record/loop_sentence.h"
+#include "corpus/store/finding_words.h"
 #include "solver/linear/elimination.ipp"
 
 namespace stiction {
@@ -100,7 +104,8 @@ Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOption
   wanted.method = method;
   wanted.options.limits = o.limits;
   SolveRequest request = RequestOf(wanted, file.problem, o.file);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
   const auto add = [&run](const auto& answer) {
     run.update(EndToJson(answer));
@@ -199,11 +204,16 @@ Json NextOf(const Json& found, const std::string& file) {
         {{"command", fmt::format("stiction {} {}{}", verb, ShellWord(file), options)}, {"shows", shows}});
   };
   add("solve", "", CertificateFor(found, "existence") == "no-solution" ? "why there are none" : "the forces");
+  // What fails over doubles does so there alone.
+  const auto named = FindNamed(file);
+  const bool of_doubles = named && IsOfDoubles(named->finding.kind);
+  if (of_doubles)
+    add("replay", ReplayOptionsOf(named->finding) + " --step", "the run that was found, over doubles");
   if (found.contains("policies")) {
     const Json& loop = found["policies"]["loops"];
     const bool other = !loop.is_null() && loop["policy"] != "paper";
     const std::string policy = other ? " --policy " + loop["policy"].get<std::string>() : "";
-    add("replay", policy + " --step", "the published algorithm, step by step");
+    add("replay", policy + " --step", "the published algorithm, step by step, exactly");
     add("replay", policy + " --html run.html", "the same as a page, beside complete driving");
     add("replay", " --all-policies", "which policies end how, and what they have in common");
     if (!loop.is_null() && loop["proved"] == true)

@@ -127,7 +127,8 @@ class Pivot(_Forces):
 
 @dataclass(frozen=True, repr=False)
 class Replay:
-    """A run of `problem`: of a loop, the state after `start` drives recurs `period` drives later.
+    """A run of `problem`: of a loop, the state after `start` drives recurs `period` drives later, in space over rounded
+    numbers; `json["over_intervals"]` has what is proved there, which may be that the run never leaves a box.
 
     A notebook shows it as a page in which to step through it, beside complete driving.
     """
