@@ -12,20 +12,28 @@ namespace stiction {
 namespace {
 
 ProofKind KindInSpace(const Json& certificate) {
-  if (certificate["claim"] == "endless") return ProofKind::kEndless;
-  if (certificate["claim"] == "ray") return ProofKind::kRay;
-  return certificate["witness"]["kind"] == "states" ? ProofKind::kStates : ProofKind::kBox;
+  const std::string claim = certificate.at("claim");
+  if (claim == "endless") return ProofKind::kEndless;
+  if (claim == "ray") return ProofKind::kRay;
+  return certificate.at("witness").at("kind") == "states" ? ProofKind::kStates : ProofKind::kBox;
 }
 
 // The run that names the policy; the first one where none does.
 const Json& RunUnder(const Json& runs, const std::string& policy) {
   for (const Json& run : runs) {
-    if (std::ranges::find(run["policies"], Json(policy)) != run["policies"].end()) return run;
+    const Json& policies = run.at("policies");
+    if (std::ranges::find(policies, Json(policy)) != policies.end()) return run;
   }
-  return runs[0];
+  return runs.at(0);
 }
 
-// "the state after 3 drives", "the start".
+bool IsOfRuns(const Json& certificate) {
+  constexpr std::string_view kClaims[] = {"cycle", "counterexample", "endless", "ray"};
+  return certificate.is_object() &&
+         std::ranges::find(kClaims, certificate.value("claim", "")) != std::end(kClaims);
+}
+
+// "the state after 3 drives".
 std::string StateAfter(const ProvedRun& run, std::string_view unit) {
   return "the state after " + Counted(run.start, unit);
 }
@@ -43,20 +51,18 @@ std::string_view Name(ProofKind kind) {
 }
 
 ProvedRun ProvedRunOf(const Json& certificate, const std::string& policy) {
-  if (!certificate.is_object()) return {};
-  const Json& claim = certificate["claim"];
-  if (claim != "cycle" && claim != "counterexample" && claim != "endless" && claim != "ray") return {};
-  const Json& witness = certificate["witness"];
+  if (!IsOfRuns(certificate)) return {};
+  const Json& witness = certificate.at("witness");
   const auto size = [](const Json& list) { return static_cast<std::int64_t>(list.size()); };
   if (witness.contains("runs")) {
-    const Json& run = RunUnder(witness["runs"], policy);
-    return {ProofKind::kStates, run["start"].get<std::int64_t>(), run["period"].get<std::int64_t>(),
-            size(run["pivots"])};
+    const Json& run = RunUnder(witness.at("runs"), policy);
+    return {ProofKind::kStates, run.at("start").get<std::int64_t>(), run.at("period").get<std::int64_t>(),
+            size(run.at("pivots"))};
   }
-  ProvedRun run{KindInSpace(certificate), 0, 0, size(witness["word"])};
+  ProvedRun run{KindInSpace(certificate), 0, 0, size(witness.at("word"))};
   if (run.kind == ProofKind::kRay) return run;
-  run.start = witness["start"].get<std::int64_t>();
-  run.period = witness["period"].get<std::int64_t>();
+  run.start = witness.at("start").get<std::int64_t>();
+  run.period = witness.at("period").get<std::int64_t>();
   return run;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corpus/store/finding_words.h"
 
+#include <fmt/format.h>
+
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/kinds.h"
@@ -13,22 +15,30 @@ FindingForm SimplestForm(const Finding& finding) {
   return finding.minimized.empty() ? FindingForm::kFound : FindingForm::kMinimized;
 }
 
-ProvedRun ProvedRunOf(const Finding& finding, FindingForm form) {
+namespace {
+
+ProvedRun ByFacts(const Finding& finding, const char* key) {
+  const Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
+  if (!facts.contains(key)) return {};
+  const bool in_space = ParseProblem(finding.problem, finding.signature).problem.dimension == 3;
+  const auto count = [&](const char* name) { return facts.at(key).at(name).get<std::int64_t>(); };
+  if (in_space) return {ProofKind::kNone, count("start"), count("period"), 0};
+  return {ProofKind::kStates, count("start"), count("period"), count("steps")};
+}
+
+}  // namespace
+
+ProvedRun ProvedRunOf(const Finding& finding, FindingForm form) try {
   const bool found = form == FindingForm::kFound;
-  // A finding that was minimized with another certificate has none of the problem as found.
   const std::string& certificate = found ? finding.certificate : finding.minimized_certificate;
   if (!certificate.empty()) {
     const ProvedRun run = ProvedRunOf(ParseJson(certificate, finding.signature), finding.policy);
     if (run.kind != ProofKind::kNone) return run;
   }
-  const std::string source = "facts of " + finding.signature;
-  const Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, source);
-  const char* key = found ? "found" : "minimized";
-  if (!facts.contains(key)) return {};
-  const bool in_space = ParseProblem(finding.problem, finding.signature).problem.dimension == 3;
-  const Json& of = facts[key];
-  return {in_space ? ProofKind::kNone : ProofKind::kStates, of.value("start", std::int64_t{0}),
-          of.value("period", std::int64_t{0}), in_space ? 0 : of.value("steps", std::int64_t{0})};
+  return ByFacts(finding, found ? "found" : "minimized");
+} catch (const Json::exception&) {
+  throw InputError(fmt::format(
+      "{}: found a certificate or facts that say nothing of a run, expected those of one", finding.signature));
 }
 
 std::string_view UnitOfLoop(const Finding& finding) {
