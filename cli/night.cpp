@@ -79,7 +79,7 @@ ShowFindings Reading(ProgressBar& bar, const std::string& file) {
   const std::string which = file.empty() ? "" : file + ": ";
   return [&bar, which](std::int64_t done, std::int64_t of) {
     bar.ShowSome(done, of,
-                 [&] { return fmt::format("{}{} of {} findings read", which, Grouped(done), Grouped(of)); });
+                 [&] { return fmt::format("{}{} of {} read", which, Grouped(done), Counted(of, "finding")); });
   };
 }
 

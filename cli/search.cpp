@@ -173,9 +173,9 @@ int ExitOf(const Store& store, const std::string& file) {
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
   fmt::print(std::cerr,
-             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, "
+             "stiction: {}: holds {}: methods that prove disagree, or a safe problem cycles, "
              "which ties alone can make\n",
-             file, grave);
+             file, Counted(grave, "grave finding"));
   return kExitGrave;
 }
 
@@ -231,8 +231,8 @@ std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> as
     problems += UnitProblems(campaign, TaskOf(schedule, unit));
   if (problems == *asked) return "";
   return fmt::format(
-      "; {} problems were asked for, {} fill whole units; the same command with --problems above {} goes on",
-      Grouped(*asked), Grouped(problems), problems);
+      "; {} {} asked for, {} fill whole units; the same command with --problems above {} goes on",
+      Counted(*asked, "problem"), *asked == 1 ? "was" : "were", Grouped(problems), problems);
 }
 
 int RunSearchVerb(const SearchVerb& asked) {
@@ -261,8 +261,8 @@ int RunSearchVerb(const SearchVerb& asked) {
       });
   log.Finish(report.progress);
   if (untold > 0)
-    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(),
-               untold);
+    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {}\n", TimeOfDay(),
+               Counted(untold, "finding"));
   const Store store = Store::OpenToRead(o.store);
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
@@ -515,7 +515,8 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
   fmt::print(std::cerr, "left out in all: {}, {}\n", Counted(static_cast<std::int64_t>(left_out), "row"),
              Counted(static_cast<std::int64_t>(refused), "whole store"));
   if (refused == stores.size())
-    throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
+    throw InputError(fmt::format("merge: found {} of which none can be read, expected one",
+                                 Counted(static_cast<std::int64_t>(refused), "store")));
 }
 
 int RunMerge(const MergeVerb& o) {

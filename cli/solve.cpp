@@ -27,6 +27,7 @@
 #include "cli/narration/problem_text.h"
 #include "cli/program.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
@@ -194,7 +195,7 @@ Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
     result["why"] = problem.factors
-                        ? fmt::format("{} rows in factors: over doubles, A is not formed", problem.rows())
+                        ? Counted(problem.rows(), "row") + " in factors: over doubles, A is not formed"
                         : fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
   result["assumptions"] = FailedAssumptions(problem);
   if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);

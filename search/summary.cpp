@@ -299,8 +299,9 @@ std::string OptimizedText(const Store& store, const std::string& file) {
                         best.value);
   const Kept kept = KeptOf(store);
   const bool tests = !campaign.solver.name.empty();
-  text += fmt::format("  {} of {} groups kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
-                      kept.finished + kept.pending, kept.finished, tests ? "seen again" : "certified");
+  text += fmt::format("  {} of {} kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
+                      Counted(kept.finished + kept.pending, "group"), kept.finished,
+                      tests ? "seen again" : "certified");
   if (tests) text += GroupsText(store);
   if (kept.pending > 0)
     text += fmt::format("  what is to go is finished by: {}\n",
