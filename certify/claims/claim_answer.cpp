@@ -61,9 +61,11 @@ ClaimAnswer ByCertificate(Json found, const std::string& why_none) {
 std::string PoliciesSentence(const PolicyCounts& counts, std::string_view does, std::string_view plural) {
   const std::string asked = Grouped(counts.asked);
   if (counts.so == counts.asked) return fmt::format("all {} policies {}", asked, plural);
-  std::string text = counts.so == 0 ? fmt::format("none of {} policies {}", asked, does)
-                                    : fmt::format("{} of {} policies {}", Grouped(counts.so), asked,
-                                                  counts.so == 1 ? does : plural);
+  std::string text =
+      fmt::format("{} of {} policies {}", Grouped(counts.so), asked, counts.so == 1 ? does : plural);
+  if (counts.so == 0)
+    text = counts.open == 0 ? fmt::format("none of {} policies {}", asked, does)
+                            : fmt::format("none of {} policies is shown to {}", asked, plural);
   const char* before = "; ";
   for (const auto& [end, count] : counts.otherwise) {
     text += fmt::format("{}{} {} {}", before, Grouped(count), count == 1 ? "ends in" : "end in", end);

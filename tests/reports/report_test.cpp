@@ -1298,7 +1298,8 @@ TEST_CASE("report: sentences say what was found, with its intervals") {
   for (const char* part :
        {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the policy paper: 4,000,000 "
         "runs.",
-        "It does not always end.", "3 of 4,000,000 runs repeat a state, in exact arithmetic or",
+        "It does not always end.",
+        "3 of 4,000,000 runs go on for ever: ", "In the plane they repeat a state, exactly; in space",
         "0.75 [0.154, 2.2] in a million runs", "solved 30 of 30 problems", "The methods disagree.",
         "1 of 23 problems", "Of 10 suspicious runs in doubles 7 are solved in exact arithmetic",
         "Of 800 runs without a suspicion that were repeated exactly, 2 were misjudged (0.25 % [0.0302, "
