@@ -25,7 +25,8 @@ inline std::string Plural(std::string_view noun) {
   const std::string word(noun);
   const auto ends = [&noun](std::string_view tail) { return noun.ends_with(tail); };
   if (ends("x") || ends("s") || ends("ch") || ends("sh")) return word + "es";
-  const bool behind_vowel = noun.size() > 1 && std::string_view("aeiou").find(noun[noun.size() - 2]) != noun.npos;
+  const bool behind_vowel =
+      noun.size() > 1 && std::string_view("aeiou").find(noun[noun.size() - 2]) != noun.npos;
   if (ends("y") && !behind_vowel) return word.substr(0, word.size() - 1) + "ies";
   return word + "s";
 }

@@ -19,7 +19,8 @@ from . import plots  # which imports nothing of others before it draws
 from ._campaigns import Best, Finding, Store, draw, interval, search
 from ._explained import Explanation, explain, methods, policies
 from ._many import Answers, replay_many, solve_many
-from ._methods import Answer, Certificate, Decision, Pivot, Replay, certify, check, decide, ends, replay, solve, solve_all
+from ._methods import (Answer, Certificate, Decision, Pivot, Replay, certify, check, decide, ends, replay, solve,
+                       solve_all)
 from ._problem import Problem, load
 from ._simulation import Simulation, assemble, simulate
 from ._stiction import __version__
