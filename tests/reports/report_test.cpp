@@ -789,6 +789,7 @@ TEST_CASE("report: of a loop in space it says what its certificate proves, in pa
     CHECK_FALSE(Has(page, "recurs 6 drives later"));
     CHECK_FALSE(Has(page, "(21 steps in all)"));  // of a run that intervals ended early
     const auto rows = ReadTable(scratch / out / "findings.csv");
+    CHECK(rows.at(0).at("minimized_steps") == "2");  // those of the certificate
     CHECK(rows.at(0).at("minimized_proof") == (endless ? "endless" : "box"));
     const Json listed = ListedIn(ReadText(scratch / out / "findings.html"));
     CHECK(listed[0]["period"] == 0);  // whose drives a page would say recur
