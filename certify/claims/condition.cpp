@@ -205,10 +205,8 @@ namespace {
 // An unsafe problem shows that its condition number is not enough.
 ClaimAnswer ByCondition(const ExactProblem& problem, const ClaimOptions&) {
   if (auto found = ConditionCertificate(problem)) return ByCertificate(std::move(*found));
-  if (HasFewWords(problem)) {
-    Json safety = SafetyCertificate(problem);
-    if (safety["claim"] == "unsafe") return ByCertificate(std::move(safety));
-  }
+  Json safety = SafetyCertificateIfDecided(problem);
+  if (safety.is_object() && safety["claim"] == "unsafe") return ByCertificate(std::move(safety));
   return ByCertificate(nullptr, "no scaling was found under which the condition number of A is small enough");
 }
 void RequireConditionIsSaid(const ExactProblem& problem, const std::string& source) {
