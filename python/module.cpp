@@ -21,6 +21,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_sparse.h"
@@ -290,7 +291,8 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   }
   const ProblemFile& file = problem.file();
   SolveRequest request = RequestOf(wanted, file.problem, kSource);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
     return SolutionToJson(SolveAsked(file.problem, request, kSource), file.problem.dimension);
