@@ -187,9 +187,9 @@ int ExitOf(const Store& store, const std::string& file) {
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
   fmt::print(std::cerr,
-             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, "
+             "stiction: {}: holds {}: methods that prove disagree, or a safe problem cycles, "
              "which ties alone can make\n",
-             file, grave);
+             file, Counted(grave, "grave finding"));
   return kExitGrave;
 }
 
@@ -246,8 +246,8 @@ std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> as
     problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
   if (problems == *asked) return "";
   return fmt::format(
-      "; {} problems were asked for, {} fill whole units; the same command with --problems above {} goes on",
-      Grouped(*asked), Grouped(problems), problems);
+      "; {} {} asked for, {} fill whole units; the same command with --problems above {} goes on",
+      Counted(*asked, "problem"), *asked == 1 ? "was" : "were", Grouped(problems), problems);
 }
 
 // Whether the words of the command name a store and no search: then it is the search of the store.
@@ -300,9 +300,9 @@ int RunSearchVerb(const SearchVerb& asked) {
   SearchOptions options = OptionsOf(o);
   options.started = [&](const SearchProgress& progress) {
     const std::int64_t before = progress.problems_before;
-    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}{}{}\n", TimeOfDay(), campaign.seed,
-               options.threads, o.shard, o.store,
-               before > 0 ? fmt::format("; it holds {} problems, which are counted too", Grouped(before)) : "",
+    fmt::print(std::cerr, "{} seed {}, {}, shard {}, store {}{}{}\n", TimeOfDay(), campaign.seed,
+               Counted(options.threads, "thread"), o.shard, o.store,
+               before > 0 ? fmt::format("; it holds {}, counted too", Counted(before, "problem")) : "",
                RoundedText(campaign, o.problems));
   };
   NightLog log(options.minutes);
@@ -321,8 +321,8 @@ int RunSearchVerb(const SearchVerb& asked) {
       });
   log.Finish(report.progress);
   if (untold > 0)
-    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(),
-               untold);
+    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {}\n", TimeOfDay(),
+               Counted(untold, "finding"));
   const Store store = Store::OpenToRead(o.store);
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
@@ -365,9 +365,9 @@ std::string Changes(const Look& before, const Look& now, std::int64_t most) {
         fmt::format("{}{}{}", groups > 1 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
   }
   if (groups > most) names += ", ...";
-  return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
-                     Grouped(now.problems - before.problems),
-                     Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
+  return fmt::format(
+      "{}, {} more; {}, {} new{}", Counted(now.problems, "run"), Grouped(now.problems - before.problems),
+      Counted(static_cast<std::int64_t>(now.signatures.size()), "group"), Grouped(groups), names);
 }
 
 // On a terminal: all of it anew, with what is new above the summary, cut to the height.
@@ -568,9 +568,11 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
       ++refused;
     }
   }
-  fmt::print(std::cerr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
+  fmt::print(std::cerr, "left out in all: {}, {}\n", Counted(static_cast<std::int64_t>(left_out), "row"),
+             Counted(static_cast<std::int64_t>(refused), "whole store"));
   if (refused == stores.size())
-    throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
+    throw InputError(fmt::format("merge: found {} of which none can be read, expected one",
+                                 Counted(static_cast<std::int64_t>(refused), "store")));
 }
 
 int RunMerge(const MergeVerb& o) {

@@ -18,14 +18,17 @@
 #include <vector>
 
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "certify/request/solve_sparse.h"
 #include "cli/command_line.h"
+#include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/program.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
@@ -101,13 +104,10 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
   if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
-  if (result.contains("period") && !reason.empty())
-    return fmt::format("{}: from the state after {} drives on {}, the same steps every {} drives, for ever",
-                       outcome, JsonText(result["start"]), reason.substr(2), JsonText(result["period"]));
-  if (result.contains("period"))
-    return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
-                       proved ? "" : "after rounding, ", JsonText(result["start"]), JsonText(result["period"]),
-                       proved ? ", for ever" : "");
+  if (result.contains("period")) {
+    const auto describe = [proved](const auto& answer) { return EndText(answer, proved); };
+    return std::visit(describe, solution.answer);
+  }
   if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;
   if (outcome == "singular")
     return "singular: no direction keeps what the method keeps, it cannot go on" + reason;
@@ -196,7 +196,7 @@ Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem, const std:
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
     result["why"] = problem.factors
-                        ? fmt::format("{} rows in factors: over doubles, A is not formed", problem.rows())
+                        ? Counted(problem.rows(), "row") + " in factors: over doubles, A is not formed"
                         : fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
   result["assumptions"] = FailedAssumptions(problem);
   if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
@@ -220,7 +220,9 @@ Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large, stopped);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  // `auto` takes those of a scene for nothing that it would not do without.
+  const auto factors = o.method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   request.options.limits.stop = &stopped;
   const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);

@@ -17,6 +17,7 @@
 #include "cli/narration/surveyed.h"
 #include "cli/shared.h"
 #include "corpus/formats/formats.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 
 namespace stiction {
@@ -69,7 +70,7 @@ void PrintRuns(const std::string& head, const std::string& asymmetry, const Json
 // The facts once, then a line for every run; the same of (A + A')/2, if that was judged.
 void PrintSurveyed(const Json& entry) {
   const std::string name = std::filesystem::path(entry["file"].get<std::string>()).filename().string();
-  PrintRuns(fmt::format("{}: {} contacts{}", name, entry["contacts"].get<int>(),
+  PrintRuns(fmt::format("{}: {}{}", name, Counted(entry["contacts"].get<int>(), "contact"),
                         entry["dimension"] == 3 ? " in space" : ""),
             ShortText(entry["asymmetry"]["relative"].get<double>()), entry);
   if (entry.contains("symmetrized")) PrintRuns("with (A + A')/2 in place of A:", "0", entry["symmetrized"]);
@@ -86,8 +87,9 @@ std::string MeetingText(const Json& entries) {
       ++(meets == true ? meet : meets == false ? fail : open);
     }
   }
-  std::string text = fmt::format("Of {} problems {} meet the paper's assumptions, {} do not, {} are undecided",
-                                 entries.size(), meet, fail, open);
+  std::string text =
+      fmt::format("Of {} {} meet the paper's assumptions, {} do not, {} are undecided",
+                  Counted(static_cast<std::int64_t>(entries.size()), "problem"), meet, fail, open);
   if (unread > 0) text += fmt::format(", {} could not be read", unread);
   return text + ".\n";
 }

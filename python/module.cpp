@@ -21,6 +21,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_sparse.h"
@@ -297,7 +298,8 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   }
   const ProblemFile& file = problem.file();
   SolveRequest request = RequestOf(wanted, file.problem, kSource);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
     return SolutionToJson(SolveAsked(file.problem, request, kSource), file.problem.dimension);
@@ -440,21 +442,21 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
 
 // ---- Certificates ----
 
-// The text of the certificate; None where nothing that was run shows the claim or its negation.
-std::optional<std::string> CertifyProblem(PythonProblem& problem, const std::string& claim,
-                                          const std::string& policy, const std::string& law,
-                                          const Numbers& numbers) {
+// The answer, its certificate as the text of its file.
+py::object CertifyProblem(PythonProblem& problem, const std::string& claim, const std::string& policy,
+                          const std::string& law, const Numbers& numbers) {
   WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
   wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
-  const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
+  Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;
     EnumerationOptions enumeration;
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
     return CertificateOf(wanted, problem.problem(), kSource, enumeration);
   });
-  if (!certificate.is_object()) return std::nullopt;
-  return JsonText(certificate, 1) + "\n";
+  Json& certificate = answer["certificate"];
+  if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";
+  return ToPython(answer);
 }
 
 // (accepted, claim, reason).

@@ -10,6 +10,7 @@
 #include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/store/finding_words.h"
 #include "python/signals.h"
 #include "reports/tables/campaign_tables.h"
 #include "search/adversary/optimized_unit.h"
@@ -54,6 +55,7 @@ bool RunCampaign(const std::string& campaign_text, const std::string& store,
 py::dict ToPython(const Discovery& discovery) {
   py::dict dict;
   dict["count"] = discovery.met;
+  dict["sentence"] = SentenceOf(*discovery.representative);
   ForEachColumn(*discovery.representative,
                 [&dict](const char* name, const auto& value) { dict[py::str(name)] = value; });
   return dict;

@@ -213,8 +213,7 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"existence_solved", "integer", "", [](const S& s) -> Json { return s.totals.existence.solved; }},
     {"compared", "integer", "", [](const S& s) -> Json { return s.totals.agreement.compared; }},
     {"enumerated", "integer", "", [](const S& s) -> Json { return s.totals.agreement.enumerated; }},
-    {"disagreements_of_methods", "integer", "",
-     [](const S& s) -> Json { return s.totals.agreement.disagreements; }},
+    {"disagreements_of_methods", "integer", "", [](const S& s) -> Json { return s.totals.disagreements; }},
     {"safety_decided", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safety_decided; }},
     {"safe", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe; }},
     {"safe_gave_up", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe_gave_up; }},
@@ -290,21 +289,22 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   const Objective& objective = *FindObjective(campaign.objective);
   const Yield yield = YieldOf(store);
   std::string text = fmt::format(
-      "{}: {} candidates in {} units, seed {}\n  objective {}, {}: {}\n  optimizer {}: {} exact runs, which "
+      "{}: {} in {}, seed {}\n  objective {}, {}: {}\n  optimizer {}: {}, which "
       "denied "
-      "{} values of doubles\n",
-      file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
-      objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
-      Grouped(yield.confirmations), Grouped(yield.denied));
+      "{} of doubles\n",
+      file, Counted(yield.evaluations, "candidate"), Counted(yield.units, "unit"), campaign.seed,
+      objective.name, objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
+      Counted(yield.confirmations, "exact run"), Counted(yield.denied, "value"));
   const Json remarks = RemarksOf(store.identity());
   for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
   for (const BestLine& best : BestLines(store))
-    text +=
-        fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);
+    text += fmt::format("  {:18} {}, mu = {}: {}\n", best.generator, Counted(best.contacts, "contact"), best.mu,
+                        best.value);
   const Kept kept = KeptOf(store);
   const bool tests = !campaign.solver.name.empty();
-  text += fmt::format("  {} of {} groups kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
-                      kept.finished + kept.pending, kept.finished, tests ? "seen again" : "certified");
+  text += fmt::format("  {} of {} kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
+                      Counted(kept.finished + kept.pending, "group"), kept.finished,
+                      tests ? "seen again" : "certified");
   if (tests) text += GroupsText(store);
   if (kept.pending > 0)
     text += fmt::format("  what is to go is finished by: {}\n",

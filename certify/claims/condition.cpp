@@ -203,7 +203,13 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
 
 namespace {
 
-Json ByCondition(const ExactProblem& problem) { return ConditionCertificate(problem).value_or(Json()); }
+// An unsafe problem shows that its condition number is not enough.
+ClaimAnswer ByCondition(const ExactProblem& problem, const ClaimOptions&) {
+  if (auto found = ConditionCertificate(problem)) return ByCertificate(std::move(*found));
+  Json safety = SafetyCertificateIfDecided(problem);
+  if (safety.is_object() && safety["claim"] == "unsafe") return ByCertificate(std::move(safety));
+  return ByCertificate(nullptr, "no scaling was found under which the condition number of A is small enough");
+}
 void RequireConditionIsSaid(const ExactProblem& problem, const std::string& source) {
   RequireHandled(problem, source, "safety");
 }
@@ -212,7 +218,7 @@ void RequireConditionIsSaid(const ExactProblem& problem, const std::string& sour
 
 ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,
-                                            "its condition number alone shows that it is", Alone<ByCondition>,
+                                            "its condition number alone shows that it is", ByCondition,
                                             RequireConditionIsSaid}};
   return {60, kClaims};
 }

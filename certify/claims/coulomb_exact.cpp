@@ -32,6 +32,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "certify/claims/existence.h"
 #include "certify/exact/centring.h"
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
@@ -633,11 +634,14 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   return FindBox(problem, layout, fixed, x, system.Slopes().inverse());
 }
 
-Json OfCoulombExact(const ExactProblem& problem, const ClaimOptions& o) {
+// Where no box is found, there may be no solution at all.
+ClaimAnswer OfCoulombExact(const ExactProblem& problem, const ClaimOptions& o) {
   try {
-    return CertifyBox(problem, o.limits);
+    return ByCertificate(CertifyBox(problem, o.limits));
   } catch (const NothingShown& nothing) {
-    return nothing.why;
+    Json found = DecideExistence(problem, o.limits, o.enumeration, FrictionLaw::kCoulomb).certificate;
+    const bool none = found.is_object() && found["claim"] == "no-solution";
+    return ByCertificate(none ? std::move(found) : Json(), nothing.why);
   }
 }
 

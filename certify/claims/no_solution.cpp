@@ -71,8 +71,10 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
 }
 
 ClaimRows NoSolutionClaims() {
-  static constexpr Claim kClaims[] = {
-      Claim{.name = "no-solution", .check = CheckNoSolution, .proves = "no forces meet all conditions"}};
+  static constexpr Claim kClaims[] = {Claim{.name = "no-solution",
+                                            .check = CheckNoSolution,
+                                            .proves = "no forces meet all conditions",
+                                            .negative = true}};
   return {20, kClaims};
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "certify/claims/claim.h"
+#include "certify/claims/condition.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
@@ -80,6 +82,10 @@ std::vector<Rational> ShiftedDeterminant(const ExactMatrix& R) {
 
 namespace {
 
+struct TooManyWords : InputError {
+  using InputError::InputError;
+};
+
 // Depth first. `M` is the Schur complement that is left for the contacts behind the prefix.
 struct WordTree {
   const ExactProblem& problem;
@@ -89,8 +95,8 @@ struct WordTree {
   void Visit(const ExactMatrix& M, const Rational& determinant) {
     if (prefix.size() == problem.contacts.size()) {
       if (safety.determinants.size() == kMaxSafetyWords) {
-        throw InputError(fmt::format("safe: more than {} words, the first {} with a positive determinant",
-                                     kMaxSafetyWords, kMaxSafetyWords));
+        throw TooManyWords(fmt::format("safe: more than {} words, the first {} with a positive determinant",
+                                       kMaxSafetyWords, kMaxSafetyWords));
       }
       safety.determinants.push_back(determinant);
       return;
@@ -194,6 +200,14 @@ Json SafetyCertificate(const ExactProblem& problem) {
   return MakeCertificate(unsafe ? "unsafe" : "safe", problem, std::move(witness));
 }
 
+Json SafetyCertificateIfDecided(const ExactProblem& problem) {
+  try {
+    return SafetyCertificate(problem);
+  } catch (const TooManyWords&) {
+    return nullptr;
+  }
+}
+
 // ---- Checking ----------------------------------------------------------------------------------
 
 void RequireClaimableSafety(const ExactProblem& problem) {
@@ -254,13 +268,25 @@ void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source)
   RequireHandled(problem, source, "safety");
 }
 
+// By the determinants; of too many words by the condition number, if it is enough.
+ClaimAnswer OfSafety(const ExactProblem& problem, const ClaimOptions&) {
+  Json decided = SafetyCertificateIfDecided(problem);
+  if (!decided.is_null()) return ByCertificate(std::move(decided));
+  return ByCertificate(ConditionCertificate(problem).value_or(Json()),
+                       fmt::format("there are more than {} words, and the condition number of A does not tell",
+                                   Grouped(kMaxSafetyWords)));
+}
+
 }  // namespace
 
 ClaimRows SafetyClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
-            Alone<SafetyCertificate>, RequireSafetyIsSaid},
-      Claim{"unsafe", CheckUnsafe}};
+            OfSafety, RequireSafetyIsSaid},
+      Claim{.name = "unsafe",
+            .check = CheckUnsafe,
+            .meaning = "a reduced determinant is not positive",
+            .negative = true}};
   return {50, kClaims};
 }
 

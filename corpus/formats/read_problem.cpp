@@ -119,6 +119,21 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
   return ToDense(problem, problem.name);
 }
 
+std::optional<ExactFactors> FactorsBehind(const ProblemFile& file) {
+  if (file.factors || !file.scene) return file.factors;
+  const auto of_scene = [](const auto& scene) -> std::optional<ExactFactors> {
+    const auto model = Assemble(scene.scene, FindContacts(scene.scene));
+    if (model.islands.size() != 1) return std::nullopt;
+    return model.InFactors(0);
+  };
+  auto factors = std::visit(of_scene, ParseAnyScene(file.scene->dump(), file.name));
+  if (!factors || factors->rows() != file.problem.rows()) return std::nullopt;
+  const ExactProblem formed = ToDense(*factors);
+  if (formed.A != file.problem.A || formed.b != file.problem.b)
+    return std::nullopt;  // a problem that came of it
+  return factors;
+}
+
 std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
   const std::string source = file.string();
   const std::size_t end = EndOfStore(source);
