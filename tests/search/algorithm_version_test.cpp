@@ -26,7 +26,7 @@ namespace {
 
 using namespace testing;
 
-constexpr int kRecordedVersion = 1, kRecordedCounts = 5;
+constexpr int kRecordedVersion = 1, kRecordedCounts = 6;
 
 [[maybe_unused]] const bool kRecorded = AddRecorded({
     {"integers", 0xe9843a6c5c02462a, 0xe66e955f691617dc, 0x9ccd3f08e0166c16},

@@ -287,6 +287,51 @@ TEST_CASE("gate: noise that methods leave is taken away before it asks") {
   CHECK(refused > tried / 2);  // it is needed
 }
 
+// ---- Who is accused -----------------------------------------------------------------------------------------
+
+double LenientErrorAt(const ExactProblem& problem, const Eigen::VectorXd& f) {
+  const ContactProblem<double> rounded = Rounded<double>(problem);
+  const Eigen::VectorXd a = rounded.A * f + rounded.b;
+  LenientUnits<double> units;
+  return MeasureLeniently(rounded, FrictionLaw::kCoulomb, f, a, units).error;
+}
+
+TEST_CASE("lenient: friction that is off by a little of the force at its contact accuses nobody") {
+  const ExactProblem alone = MakeProblem({1}, {{1, 0}, {0, 1}}, {-1, 0});
+  CHECK(LenientErrorAt(alone, Eigen::Vector2d(1, 1e-12)) < 1e-11);
+  int solved = 0;
+  for (const GeneratorId id :
+       {GeneratorId::kPsd, GeneratorId::kBodies, GeneratorId::kBilateral, GeneratorId::kSliding}) {
+    for (int index = 0; index < Few(60); ++index) {
+      CAPTURE(Row(id).name, index);
+      Choices choices(index);
+      const ExactProblem problem = Unrounded(Rounded<double>(Random<Rational>(id, 1 + index % 4, index)));
+      const ExactAnswer answer = SolveExactly(problem, {.method = "complete"});
+      if (answer.outcome != Outcome::kSolved) continue;
+      Eigen::VectorXd f = answer.f.unaryExpr([](const Rational& x) { return ToDouble(x); });
+      int row = 0;
+      for (const auto& contact : problem.contacts) {
+        const int count = RowsOf(contact, 2);
+        const double largest = f.segment(row, count).cwiseAbs().maxCoeff();
+        for (int end = row + count; row < end; ++row)
+          if (contact.kind != ContactKind::kSliding) f[row] += 1e-12 * largest * choices.Integer(-1, 1);
+      }
+      CHECK(LenientErrorAt(problem, f) < 1e-10);
+      ++solved;
+    }
+  }
+  CHECK(solved > Few(150));
+}
+
+TEST_CASE("lenient: free fall, a pull and friction that pushes are accused whatever is beside them") {
+  const ExactProblem alone = MakeProblem({1}, {{2, 0}, {0, 3}}, {-4, -3});
+  CHECK(LenientErrorAt(alone, Eigen::Vector2d(0, 0)) == Approx(1));
+  CHECK(LenientErrorAt(alone, Eigen::Vector2d(2, -1)) > 0.1);
+  CHECK(LenientErrorAt(MakeProblem({1}, {{2, 0}, {0, 3}}, {4, 0}), Eigen::Vector2d(-2, 0)) > 0.4);
+  const ExactProblem both = SideBySide(alone, MakeProblem({1}, {{1, 0}, {0, 1}}, {Number("-1e9"), 0}), 0);
+  CHECK(LenientErrorAt(both, Eigen::Vector4d(0, 0, 1e9, 0)) == Approx(1));
+}
+
 // ---- Neighbours ---------------------------------------------------------------------------------------------
 
 // The judge is written apart from it, condition by condition.
