@@ -76,7 +76,7 @@ std::string DefaultOf(const std::vector<T>& field) {
 
 // "an integer from 1 to 1024"
 std::string ExpectedNumber(const OptionRow& row) {
-  const std::string number = row.TypeName() == "INTEGER" ? "an integer" : "a number or fraction";
+  const std::string number = row.TypeName() == "INTEGER" ? "an integer" : "a number";
   if (std::holds_alternative<std::optional<std::uint64_t>*>(row.field)) return number + " from 0 to 2^64 - 1";
   if (row.min == -std::numeric_limits<double>::infinity()) return number;
   return fmt::format("{} from {:g} to {}", number, row.min,
