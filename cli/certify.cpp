@@ -19,6 +19,7 @@
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/safety.h"
+#include "cli/program.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -177,7 +178,7 @@ std::string AnswerText(const Json& answer, const CertifyOptions& o) {
   if (!certified) text += fmt::format("{} is not written: there is no certificate\n", o.output);
   if (answer.contains("policies") && answer["policies"].contains("example")) {
     const std::string policy = answer["policies"]["example"];
-    text += fmt::format("see stiction replay {}{}\n", ShellWord(o.file),
+    text += fmt::format("shown by stiction replay {}{}\n", ShellWord(o.file),
                         policy == "paper" ? "" : " --policy " + ShellWord(policy));
   }
   return text;
@@ -214,7 +215,7 @@ int RunCertify(const CertifyOptions& o) {
   }
   // With the certificate itself on standard output, nothing else may stand there.
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << (o.json ? JsonText(AnswerForPrograms(answer, file)) + "\n" : Folded(AnswerText(answer, o)));
+  out << (o.json ? JsonText(AnswerForPrograms(answer, file)) + "\n" : AsTyped(Folded(AnswerText(answer, o))));
   return ExitOf(answer);
 }
 

@@ -119,19 +119,31 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
   return ToDense(problem, problem.name);
 }
 
-std::optional<ExactFactors> FactorsBehind(const ProblemFile& file) {
-  if (file.factors || !file.scene) return file.factors;
-  const auto of_scene = [](const auto& scene) -> std::optional<ExactFactors> {
-    const auto model = Assemble(scene.scene, FindContacts(scene.scene));
+namespace {
+
+// Of a scene that makes one problem.
+std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& source) {
+  const auto assembled = [](const auto& file) -> std::optional<ExactFactors> {
+    const auto model = Assemble(file.scene, FindContacts(file.scene));
     if (model.islands.size() != 1) return std::nullopt;
     return model.InFactors(0);
   };
-  auto factors = std::visit(of_scene, ParseAnyScene(file.scene->dump(), file.name));
+  try {
+    return std::visit(assembled, ParseAnyScene(json.dump(), source));
+  } catch (const InputError&) {  // a text in place of one, as where a problem came of it
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<ExactFactors> FactorsBehind(const ProblemFile& file) {
+  if (file.factors || !file.scene) return file.factors;
+  auto factors = FactorsOfScene(*file.scene, file.name);
   if (!factors || factors->rows() != file.problem.rows()) return std::nullopt;
   const ExactProblem formed = ToDense(*factors);
-  if (formed.A != file.problem.A || formed.b != file.problem.b)
-    return std::nullopt;  // a problem that came of it
-  return factors;
+  const bool is_its = formed.A == file.problem.A && formed.b == file.problem.b;
+  return is_its ? std::move(factors) : std::nullopt;
 }
 
 std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/kinds.h"

@@ -66,7 +66,7 @@ class Formats(cli.TestCase):
         self.refuses("export", problem, "-o", out, "--format", "siconos-fc", says=["b[0]", "-1/3", "--round"])
         self.assertFalse(out.exists())
         done = self.succeeds("export", problem, "-o", out, "--format", "siconos-fc", "--round")
-        self.assertIn("1 numbers rounded", done.out)
+        self.assertIn("1 number rounded", done.out)
 
     def test_bad_files_and_wrong_formats_are_refused_with_their_place(self):
         out = self.folder / "out.json"
