@@ -87,7 +87,7 @@ BLOCK, PAIR, VELOCITY, ENTRY = 20, 4, 15, 6  # operations of a block of M, two r
 
 
 def require_few_velocities(value, n):
-    """How many there are, before any number is read: each is touched by a row, and by its own entry of J."""
+    """How many there are, before any number is read: a row touches each block of M, with an entry of J of its own."""
     place = "$.witness.factors"
     fields(value, place, "J", "M", "w", optional=("c",))
     fields(value["J"], place + ".J", "size", "entries")
@@ -95,7 +95,8 @@ def require_few_velocities(value, n):
     integer(size[0], place + ".J.size[0]", n, n + 1)
     velocities = integer(size[1], place + ".J.size[1]", 0, 2**31 - 1)
     entries = len(listed(value["J"]["entries"], place + ".J.entries"))
-    need(velocities <= entries, place + ".J.size[1]", velocities, f"at most {entries}, the entries of J")
+    blocks = len(listed(value["M"], place + ".M"))
+    need(blocks <= entries, place + ".M", f"{blocks} blocks", f"at most {entries}, the entries of J")
     Cost(product_operations(n) + VELOCITY * velocities + ENTRY * entries)
     return velocities
 
@@ -105,14 +106,13 @@ def read_factors(value, n):
     place = "$.witness.factors"
     velocities = require_few_velocities(value, n)
     J = {at: x for at, x in read_entries(value["J"]["entries"], place + ".J.entries", n, velocities).items() if x}
-    touched = {j for _, j in J}
-    need(len(touched) == velocities, place + ".J.entries", f"{len(touched)} velocities with entries other than 0",
-         f"an entry for each of the {velocities}")
-    M = []
+    M, first, touched = [], 0, {j for _, j in J}
     for at, block in items(value["M"], place + ".M"):
         M.append(rows(block, at, len(block)) if type(block) is list else [[exact(block, at)]])
         need(M[-1], at, block, "a number, or rows of numbers")
         need(M[-1] == [list(column) for column in zip(*M[-1])], at, block, "a symmetric block")
+        need(not touched.isdisjoint(range(first, first + len(M[-1]))), at, block, "a block that a row of J touches")
+        first += len(M[-1])
     need(sum(map(len, M)) == velocities, place + ".M", sum(map(len, M)), f"blocks of {velocities} velocities")
     w = vector(value["w"], place + ".w", velocities)
     c = vector(value["c"], place + ".c", n) if "c" in value else [ZERO] * n

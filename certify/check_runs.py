@@ -199,11 +199,22 @@ class Published:
     def __init__(self, rows, policy, on_step):
         """on_step(steps) is called after every step, with all made so far; it may raise Ended."""
         self.rows, self.variables, self.policy, self.on_step = rows, rows.variables, policy, on_step
-        self.f = held_forces(rows)
-        self.a = None if self.f is None else [x + y for x, y in zip(times(rows.A, self.f), rows.b)]
+        self.known = rows.__dict__.setdefault("known", {})  # of points that runs under other policies came to
+        self.f, self.a = self.remembered_of(self.first_point, "first")
         self.sets = ["C" if row in rows.held else "none" for row in range(len(rows.b))]
         self.last = None  # the contact driven last
         self.drives, self.steps = 0, []
+
+    def first_point(self):
+        f = held_forces(self.rows)
+        return f, None if f is None else [x + y for x, y in zip(times(self.rows.A, f), self.rows.b)]
+
+    def remembered_of(self, compute, *of, point=()):
+        """What is computed of a point f, a: only once of the same one. Whoever takes the same steps comes to it."""
+        key = (*map(id, point), *of)
+        if key not in self.known:
+            self.known[key] = compute(), point  # which stays, and with it its id
+        return self.known[key][0]
 
     # Main loop (readings, section 2).
 
@@ -241,6 +252,9 @@ class Published:
 
     def violated(self, row):
         """A normal that fails (15), or a friction variable that fails (16) while (15) holds."""
+        return self.remembered_of(lambda: self.fails(row), row, point=(self.f, self.a))
+
+    def fails(self, row):
         if self.rows.is_passive(row):
             return False
         x = self.variables[row]
@@ -319,6 +333,12 @@ class Published:
         rate = -sign(self.a[v] if goal == "establish" else self.f[v])
         if v == self.variables[v].normal:
             rate = 1
+        first, self.f, self.a = self.remembered_of(lambda: self.step(v, goal, rate), v, goal, self.policy["ties"],
+                                                   *self.sets, point=(self.f, self.a))
+        return first
+
+    def step(self, v, goal, rate):
+        """The first limit, and the point there."""
         change = fdirection(self.rows, tuple(self.sets), v, rate)
         if change is None:
             raise Ended("singular")
@@ -326,9 +346,8 @@ class Published:
         if not limits:
             raise Ended("ray")
         first = min(limits, key=lambda limit: limit[:2])  # of equals the one found first
-        self.f, self.a = ([x + first[0] * y for x, y in zip(now, rates)]
-                          for now, rates in zip((self.f, self.a), change))
-        return first
+        return first, *([x + first[0] * y for x, y in zip(now, rates)]
+                        for now, rates in zip((self.f, self.a), change))
 
     def limits(self, v, goal, df, da):
         """maxstep: (s, rank among ties, variable, set it wants into); s None: no limit."""
@@ -422,13 +441,13 @@ def check_policy(rows, stated, place, policy):
 
 
 def steps_operations(n, witness):
-    """Of one step more than are stated, for every policy; the direction of a step is found once for all of them."""
+    """Of one step more than are stated: most is done once for all policies."""
     operations = 0
     for place, stated in items(witness["runs"], "$.witness.runs"):
         fields(stated, place, "policies", "start", "period", "pivots", "state")
         policies = len(listed(stated["policies"], place + ".policies"))
         steps = len(listed(stated["pivots"], place + ".pivots")) + 1
-        operations += steps * (n**3 // 4 + 3 * n**2 + 25 * n * policies)
+        operations += steps * (n**3 // 4 + 3 * n**2 + 100 * n + (5 * n + 40) * policies)
     return operations
 
 

@@ -45,26 +45,27 @@ double OperationsOf(const ExactProblem& problem, double velocities, double entri
   return ProductOperations(problem.rows(), 1) + 15 * velocities + 6 * entries;
 }
 
-// Before any number is read: each velocity is touched by a row, and by its own entry of J.
+// Before any number is read: a row touches each block of M, with an entry of J of its own.
 void RequireFewVelocities(const ExactProblem& problem, const Json& json) {
   if (!json.is_object() || !json.contains("J")) return;  // refused where it is read
   const Json& J = json["J"];
   if (!J.is_object() || !J.contains("size") || !J.contains("entries")) return;
   const Json &size = J["size"], &entries = J["entries"];
   if (!size.is_array() || size.size() != 2 || !size[1].is_number_unsigned() || !entries.is_array()) return;
-  if (size[1] > entries.size())
-    throw Rejected{"witness.factors.J.size[1]", Shown(size[1]),
+  if (!json.contains("M") || !json["M"].is_array()) return;
+  if (json["M"].size() > entries.size())
+    throw Rejected{"witness.factors.M", fmt::format("{} blocks", json["M"].size()),
                    fmt::format("at most {}, the entries of J", entries.size())};
   Cost(OperationsOf(problem, size[1].get<double>(), static_cast<double>(entries.size())));
 }
 
-void RequireTouchedVelocities(const FactorParts& parts) {
-  std::set<int> touched;
-  for (const auto& [at, value] : parts.J) touched.insert(at.second);
-  if (std::ssize(touched) == parts.w.size()) return;
-  throw Rejected{"witness.factors.J.entries",
-                 fmt::format("{} velocities with entries other than 0", touched.size()),
-                 fmt::format("an entry for each of the {}", parts.w.size())};
+// Of every block of M, whether a row has an entry in it.
+void RequireTouchedBlocks(const FactorParts& parts) {
+  const auto rows_of = RowsOfBlocks(parts);
+  const auto untouched = std::ranges::find_if(rows_of, [](const auto& rows) { return rows.empty(); });
+  if (untouched == rows_of.end()) return;
+  throw Rejected{ElementPath("witness.factors.M", static_cast<std::size_t>(untouched - rows_of.begin())),
+                 "a block that no row of J touches", "none"};
 }
 
 // What certificates.md says of it, before anything is computed.
@@ -100,7 +101,32 @@ void RequireCheap(const ExactProblem& problem, const FactorParts& parts) {
 
 }  // namespace
 
-Json FactorsWitness(const ExactFactors& factors) { return {{"factors", ToJson(factors)}}; }
+// Without the blocks of M that no row touches: nothing depends on these.
+Json FactorsWitness(const ExactFactors& factors) {
+  const Json all = ToJson(factors);
+  std::set<int> touched;
+  for (const Json& entry : all["J"]["entries"]) touched.insert(entry[1].get<int>());
+  std::vector<int> number;  // that a velocity gets; -1 where it is left out
+  Json M = Json::array(), w = Json::array(), entries = Json::array();
+  for (const Json& block : all["M"]) {
+    const int first = static_cast<int>(number.size());
+    const int end = first + (block.is_array() ? static_cast<int>(block.size()) : 1);
+    const auto next = touched.lower_bound(first);
+    const bool keeps = next != touched.end() && *next < end;
+    if (keeps) M.push_back(block);
+    for (int j = first; j < end; ++j) {
+      number.push_back(keeps ? static_cast<int>(w.size()) : -1);
+      if (keeps) w.push_back(all["w"][j]);
+    }
+  }
+  for (const Json& entry : all["J"]["entries"])
+    entries.push_back(Json::array({entry[0], number[entry[1].get<int>()], entry[2]}));
+  Json kept = {{"J", {{"size", {all["J"]["size"][0], w.size()}}, {"entries", std::move(entries)}}},
+               {"M", std::move(M)},
+               {"w", std::move(w)}};
+  if (all.contains("c")) kept["c"] = all["c"];
+  return {{"factors", std::move(kept)}};
+}
 
 bool HasFactors(const Json& witness) { return witness.is_object() && witness.contains("factors"); }
 
@@ -108,7 +134,7 @@ ExactVector RequireFactorsOfProblem(const ExactProblem& problem, const Json& wit
   RequireKeys(witness, "witness", {"factors"});
   RequireFewVelocities(problem, witness["factors"]);
   FactorParts parts = ReadParts(problem, witness["factors"]);
-  RequireTouchedVelocities(parts);
+  RequireTouchedBlocks(parts);
   RequireCheap(problem, parts);
   const auto factors = MakeFactors(problem.dimension, problem.contacts, std::move(parts));
   if (!factors) throw Rejected{"witness.factors.M", "a block that is not definite", "a positive definite one"};

@@ -139,7 +139,9 @@ double WordOperations(double n, double times) {
   return std::floor(times * (n * n * n + 40 * n * n + 500 * n + 1000) / 300);
 }
 
-double StepOperations(double n, double policies) { return std::floor(n * n * n / 4) + 3 * n * n + 25 * n * policies; }
+double StepOperations(double n, double policies) {
+  return std::floor(n * n * n / 4) + 3 * n * n + 100 * n + (5 * n + 40) * policies;
+}
 
 double StepInSpaceOperations(double n, double coordinates) {
   return (1 + coordinates) * (n * n * n + 20 * n * n + 300 * n);

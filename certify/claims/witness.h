@@ -35,16 +35,16 @@ struct TooDear : Rejected {};
 
 // ---- Cost --------------------------------------------------------------------------------------
 //
-// What a check will cost is bounded before it begins, in every checker by the same rule (certificates.md, What a
-// check may cost): so much that is free, and so much for every character of what was read. `operations` counts
-// those of the check on short numbers; they take longer by the square of the bits of numbers, which are bounded
-// by those of rows and vectors over their common denominators, which add up: a determinant of A has no more bits
-// than the rows of A together.
+// What a check will cost is bounded before it begins, in every checker by the same rule (certificates.md, What
+// a check may cost): so much that is free, and so much for every character of what was read. `operations`
+// counts those of the check on short numbers; they take longer by the square of the bits of numbers, which are
+// bounded by those of rows and vectors over their common denominators, which add up: a determinant of A has no
+// more bits than the rows of A together.
 
 struct Budget {
   static constexpr double kFreeWork = 4e12, kWorkPerCharacter = 250'000;
   static constexpr std::int64_t kFreeDigits = 1'000'000, kDigitsPerCharacter = 2;
-  static constexpr std::int64_t kFreeCells = 1'000'000, kCellsPerCharacter = 100;
+  static constexpr std::int64_t kFreeCells = 2'000'000, kCellsPerCharacter = 5;
   static constexpr double kShort = 1e6;  // the square of the bits with which an operation takes twice as long
 
   std::int64_t length = 0;  // characters of texts and keys, and two for every value
@@ -72,13 +72,13 @@ class BudgetOf {
 
 // TooDear: what was found, and the limit that it exceeds.
 [[noreturn]] void RefuseCost(const std::string& found, const std::string& most);
-void RequireWork(double work);                  // TooDear beyond that of the budget
+void RequireWork(double work);  // TooDear beyond that of the budget
 
 // Each with numbers of n rows; `times`: how often.
 double ProductOperations(double n, double times);      // A x
 double EliminationOperations(double n, double times);  // of A
-double WordOperations(double n, double times);         // of a reduced determinant: of half of the rows, on average
-double StepOperations(double n, double policies);      // of a step in the plane
+double WordOperations(double n, double times);     // of a reduced determinant: of half of the rows, on average
+double StepOperations(double n, double policies);  // of a step in the plane
 double StepInSpaceOperations(double n, double coordinates);
 
 class Cost {

@@ -365,8 +365,8 @@ std::optional<LoopFault> FaultOfTurnings(const FineProblem& problem, const State
   const std::vector<int> moving = Moving(image);
   if (moving.size() != 1)
     return LoopFault{"radii", fmt::format("{} coordinates that move", moving.size()), "1 in a punctured box"};
-  const std::vector<bool> ends = problem.TurningsThatEnd(state, BoxAround(loop.centre, loop.radii),
-                                                         loop.charts, loop.period, image.word.size());
+  const std::vector<bool> ends = problem.TurningsThatEnd(state, BoxAround(loop.centre, loop.radii), loop.charts,
+                                                         loop.period, image.word.size());
   if (ends.size() != image.asides.size()) Unsure<FineInterval>::Refuse();
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const FineInterval& aside = image.asides[k];
@@ -676,7 +676,7 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
 
 // Fixed places take a number that is large beside 2^bits for one that is hardly known.
 std::optional<LoopFault> FaultOfNumbers(const ExactProblem& problem, int bits) {
-  const Rational most = mpz_class(1) << bits / 4;
+  const Rational most(mpz_class(mpz_class(1) << bits / 4));
   const auto is_large = [&most](const Rational& x) { return abs(x) >= most; };
   bool large = std::any_of(problem.A.data(), problem.A.data() + problem.A.size(), is_large) ||
                std::any_of(problem.b.data(), problem.b.data() + problem.b.size(), is_large);

@@ -19,7 +19,7 @@ sys.set_int_max_str_digits(0)
 MOST_ROWS, MOST_CHARACTERS = 3000, 40_000
 FREE_WORK, WORK_BY_LENGTH = 4 * 10**12, 250_000
 FREE_DIGITS, DIGITS_BY_LENGTH = 1_000_000, 2
-FREE_CELLS, CELLS_BY_LENGTH = 1_000_000, 100
+FREE_CELLS, CELLS_BY_LENGTH = 2_000_000, 5
 SHORT = 10**6
 SECONDS = 8  # of processor time, for a refusal before any work is done; the work would take minutes
 MEGABYTES = 400
@@ -82,7 +82,7 @@ def many_digits():
 
 def rows():
     for size in (MOST_ROWS, MOST_ROWS + 1):
-        yield certificate("symmetric", diagonal(size))
+        yield certificate("symmetric", diagonal(size), b=["0" * 480] * size)
 
 
 def cells():
@@ -203,7 +203,7 @@ def steps():
         return certificate("cycle", [["1", "0"], ["0", "1"]], contacts=[{"kind": "static", "mu": "1"}], runs=[run])
 
     def fits(count, of):
-        operations = (count + 1) * (2**3 // 4 + 3 * 2**2 + 25 * 2)
+        operations = (count + 1) * (2**3 // 4 + 3 * 2**2 + 100 * 2 + 5 * 2 + 40)
         return operations * SHORT <= most_work(of) and 2 * (2 + 2) + 0 <= most_bits(of, operations)
 
     return largest(made, fits)
