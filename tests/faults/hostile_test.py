@@ -4,10 +4,12 @@
 import json
 import os
 import re
+import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -86,7 +88,14 @@ class Hostile(cli.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        Hostile.library = None
+        cls.common = Path(tempfile.mkdtemp(prefix="stiction-hostile-"))
+        cls.library = cls.common / "library"
+        subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-w", f"-I{cli.ROOT}", LIBRARY, "-lpthread", "-ldl", "-o",
+                        cls.library], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.common)
 
     def solver(self, name, folder):
         """The file that is called so."""
@@ -94,13 +103,8 @@ class Hostile(cli.TestCase):
             file = folder / name
             file.symlink_to(PROGRAM)
             return file
-        if not Hostile.library:
-            folder_of_all = Path(self.folder)
-            Hostile.library = folder_of_all / "library"
-            subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-w", f"-I{cli.ROOT}", LIBRARY, "-lpthread", "-ldl", "-o",
-                            Hostile.library], check=True)
         file = folder / f"{name}.so"
-        file.symlink_to(Hostile.library)
+        file.symlink_to(self.library)
         return file
 
     def begin(self, name, *options):
@@ -182,7 +186,6 @@ class Hostile(cli.TestCase):
 
     def each(self, act, names):
         table = {**PROGRAMS, **LIBRARIES}
-        self.solver("lib-nan", self.folder)  # compiled once
         with ThreadPoolExecutor(3) as pool:
             tries = [(name, pool.submit(act, name, table[name])) for name in names]
         for name, tried in tries:
