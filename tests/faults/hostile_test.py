@@ -21,7 +21,7 @@ import cli  # noqa: E402
 PROGRAM = Path(__file__).with_name("hostile") / "program.py"
 LIBRARY = PROGRAM.with_name("library.c")
 BUDGET = 4  # seconds of a search
-ASLEEP = r"|hang-asleep-1c"  # of what takes longer than a search has here
+ASLEEP = "hang-asleep-1c"  # takes longer than a search has here
 
 # What is found of each, as a pattern; None: nothing need be. Programs that are refused have REFUSED.
 REFUSED = object()
@@ -134,6 +134,12 @@ class Hostile(cli.TestCase):
         db.close()
         return found
 
+    def units(self, store):
+        with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as db:
+            (units,) = db.execute("SELECT COUNT(*) FROM units").fetchone()
+        db.close()
+        return units
+
     def begun(self, search, folder):
         """Waits until the search has its store and the solver its first problem, or for a while."""
         end = time.monotonic() + 20
@@ -162,7 +168,7 @@ class Hostile(cli.TestCase):
         found = self.signatures(folder / "a.store")
         if expected == "":
             self.assertEqual(found, [], name)
-        elif not expected.startswith("|"):
+        elif self.units(folder / "a.store") > 0:  # on a busy machine there may be no time for one
             self.assertTrue(found, f"{name}\n{err}")
         for signature in found:
             self.assertRegex(signature, f"^({expected})$", name)
