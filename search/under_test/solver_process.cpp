@@ -248,19 +248,23 @@ bool SolverProcess::StartAgain(SolverReply& reply) {
 
 // A line at a time and without what moves a cursor, as far as the bound goes.
 void SolverProcess::TakeErrors(std::string_view text) {
+  if (errors_ > kSolverErrors) return;
   std::string shown;
-  for (const char c : text.substr(0, kSolverErrors - std::min(kSolverErrors, errors_))) {
+  bool is_more = false;
+  for (const char c : text) {
+    is_more = errors_ + shown.size() >= kSolverErrors;
+    if (is_more) break;
     if (line_begins_) shown += "solver: ";
     line_begins_ = c == '\n';
     const auto byte = static_cast<unsigned char>(c);
     shown += c == '\n' || c == '\t' || (byte >= 0x20 && byte != 0x7f) ? c : '?';
   }
-  if (errors_ < kSolverErrors && errors_ + text.size() >= kSolverErrors) {
-    shown +=
-        fmt::format("{}solver: has written more than {} bytes on standard error; what follows is not shown\n",
-                    line_begins_ ? "" : "\n", kSolverErrors);
+  errors_ += shown.size();
+  if (is_more) {
+    errors_ = kSolverErrors + 1;
+    shown += fmt::format("{}solver: writes more than that on standard error; what follows is not shown\n",
+                         line_begins_ ? "" : "\n");
   }
-  errors_ = std::min(errors_ + text.size(), kSolverErrors);
   std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 

@@ -98,7 +98,7 @@ class SolverProcess {
   int statm_ = -1;
   std::int64_t first_memory_ = 0, last_memory_ = 0;
   double seconds_ = 0;
-  std::size_t errors_ = 0;  // bytes of standard error
+  std::size_t errors_ = 0;  // bytes of standard error that were shown; one more than may be: the end was told
   bool line_begins_ = true;
 };
 

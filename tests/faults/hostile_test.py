@@ -4,10 +4,12 @@
 import json
 import os
 import re
+import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -19,7 +21,7 @@ import cli  # noqa: E402
 PROGRAM = Path(__file__).with_name("hostile") / "program.py"
 LIBRARY = PROGRAM.with_name("library.c")
 BUDGET = 4  # seconds of a search
-ASLEEP = r"|hang-asleep-1c"  # of what takes longer than a search has here
+ASLEEP = "hang-asleep-1c"  # takes longer than a search has here
 
 # What is found of each, as a pattern; None: nothing need be. Programs that are refused have REFUSED.
 REFUSED = object()
@@ -86,7 +88,14 @@ class Hostile(cli.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        Hostile.library = None
+        cls.common = Path(tempfile.mkdtemp(prefix="stiction-hostile-"))
+        cls.library = cls.common / "library"
+        subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-w", f"-I{cli.ROOT}", LIBRARY, "-lpthread", "-ldl", "-o",
+                        cls.library], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.common)
 
     def solver(self, name, folder):
         """The file that is called so."""
@@ -94,13 +103,8 @@ class Hostile(cli.TestCase):
             file = folder / name
             file.symlink_to(PROGRAM)
             return file
-        if not Hostile.library:
-            folder_of_all = Path(self.folder)
-            Hostile.library = folder_of_all / "library"
-            subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-w", f"-I{cli.ROOT}", LIBRARY, "-lpthread", "-ldl", "-o",
-                            Hostile.library], check=True)
         file = folder / f"{name}.so"
-        file.symlink_to(Hostile.library)
+        file.symlink_to(self.library)
         return file
 
     def begin(self, name, *options):
@@ -130,6 +134,12 @@ class Hostile(cli.TestCase):
         db.close()
         return found
 
+    def units(self, store):
+        with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as db:
+            (units,) = db.execute("SELECT COUNT(*) FROM units").fetchone()
+        db.close()
+        return units
+
     def begun(self, search, folder):
         """Waits until the search has its store and the solver its first problem, or for a while."""
         end = time.monotonic() + 20
@@ -158,7 +168,7 @@ class Hostile(cli.TestCase):
         found = self.signatures(folder / "a.store")
         if expected == "":
             self.assertEqual(found, [], name)
-        elif not expected.startswith("|"):
+        elif self.units(folder / "a.store") > 0:  # on a busy machine there may be no time for one
             self.assertTrue(found, f"{name}\n{err}")
         for signature in found:
             self.assertRegex(signature, f"^({expected})$", name)
@@ -182,7 +192,6 @@ class Hostile(cli.TestCase):
 
     def each(self, act, names):
         table = {**PROGRAMS, **LIBRARIES}
-        self.solver("lib-nan", self.folder)  # compiled once
         with ThreadPoolExecutor(3) as pool:
             tries = [(name, pool.submit(act, name, table[name])) for name in names]
         for name, tried in tries:
