@@ -383,7 +383,7 @@ class Budget:
 
     The unit of work is a millionth of the time that one operation on short numbers takes."""
 
-    FREE_WORK, WORK_PER_CHARACTER = 4 * 10**12, 250_000
+    FREE_WORK, WORK_PER_CHARACTER = 6 * 10**12, 250_000
     FREE_DIGITS, DIGITS_PER_CHARACTER = 1_000_000, 2
     FREE_CELLS, CELLS_PER_CHARACTER = 2_000_000, 5
     SHORT = 10**6  # the square of the bits with which an operation takes twice as long

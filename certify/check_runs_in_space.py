@@ -942,16 +942,16 @@ class Box:
         need(apart, "$.witness.start", self.witness["start"], "a state that the period surely moves")
 
 
-def step_operations(n, coordinates):
-    """Of a step over numbers with so many derivatives."""
-    return (1 + coordinates) * (n**3 + 20 * n**2 + 300 * n)
+def step_operations(n, coordinates, steps):
+    """Of steps over numbers with so many derivatives."""
+    return steps * (1 + coordinates) * (n**3 + 20 * n**2 + 300 * n) // 4
 
 
 def begin(problem, witness, policy, coordinates=0):
     """A run from f = 0, over numbers of so many bits, of the steps that are stated."""
     Number.bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
     steps = len(listed(witness["word"], "$.witness.word")) + 1
-    Cost(step_operations(len(problem.b), coordinates) * steps).add(2 * Number.bits).longest_row(problem)
+    Cost(step_operations(len(problem.b), coordinates, steps)).add(Number.bits).longest_row(problem)
     for at, step in items(witness["word"], "$.witness.word"):
         need(type(step) is str, at, step, "a step as a text")
     numbers = [*problem.b, *(x for row in problem.A for x in row), *(contact.mu or 0 for contact in problem.contacts)]

@@ -319,8 +319,8 @@ void RequireFewStepsInSpace(const ExactProblem& problem, const Json& witness) {
   if (!witness.is_object() || !witness.contains("bits")) return;  // refused where it is read
   const double steps = static_cast<double>(LengthOf(witness, "word") + 1);
   const double coordinates = static_cast<double>(LengthOf(witness, "radii"));
-  Cost(steps * StepInSpaceOperations(problem.rows(), coordinates))
-      .AddBits(2 * ReadBits(witness))
+  Cost(StepInSpaceOperations(problem.rows(), coordinates, steps))
+      .AddBits(ReadBits(witness))
       .LongestRow(problem);
 }
 

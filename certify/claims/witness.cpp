@@ -143,8 +143,8 @@ double StepOperations(double n, double policies) {
   return std::floor(n * n * n / 4) + 3 * n * n + 100 * n + (5 * n + 40) * policies;
 }
 
-double StepInSpaceOperations(double n, double coordinates) {
-  return (1 + coordinates) * (n * n * n + 20 * n * n + 300 * n);
+double StepInSpaceOperations(double n, double coordinates, double times) {
+  return std::floor(times * (1 + coordinates) * (n * n * n + 20 * n * n + 300 * n) / 4);
 }
 
 namespace {

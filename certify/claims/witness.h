@@ -42,7 +42,7 @@ struct TooDear : Rejected {};
 // more bits than the rows of A together.
 
 struct Budget {
-  static constexpr double kFreeWork = 4e12, kWorkPerCharacter = 250'000;
+  static constexpr double kFreeWork = 6e12, kWorkPerCharacter = 250'000;
   static constexpr std::int64_t kFreeDigits = 1'000'000, kDigitsPerCharacter = 2;
   static constexpr std::int64_t kFreeCells = 2'000'000, kCellsPerCharacter = 5;
   static constexpr double kShort = 1e6;  // the square of the bits with which an operation takes twice as long
@@ -79,7 +79,7 @@ double ProductOperations(double n, double times);      // A x
 double EliminationOperations(double n, double times);  // of A
 double WordOperations(double n, double times);     // of a reduced determinant: of half of the rows, on average
 double StepOperations(double n, double policies);  // of a step in the plane
-double StepInSpaceOperations(double n, double coordinates);
+double StepInSpaceOperations(double n, double coordinates, double times);
 
 class Cost {
  public:

@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.set_int_max_str_digits(0)
 MOST_ROWS, MOST_CHARACTERS = 3000, 40_000
-FREE_WORK, WORK_BY_LENGTH = 4 * 10**12, 250_000
+FREE_WORK, WORK_BY_LENGTH = 6 * 10**12, 250_000
 FREE_DIGITS, DIGITS_BY_LENGTH = 1_000_000, 2
 FREE_CELLS, CELLS_BY_LENGTH = 2_000_000, 5
 SHORT = 10**6
@@ -220,8 +220,8 @@ def words():
         return false
 
     def fits(count, of):
-        operations = (count + 1) * 2 * (3**3 + 20 * 3**2 + 300 * 3)
-        return operations * SHORT <= most_work(of) and 2 * 64 + 2 <= most_bits(of, operations)
+        operations = (count + 1) * 2 * (3**3 + 20 * 3**2 + 300 * 3) // 4
+        return operations * SHORT <= most_work(of) and 64 + 2 <= most_bits(of, operations)
 
     return largest(made, fits)
 
