@@ -10,7 +10,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(),
+constexpr double kEndless = std::numeric_limits<double>::infinity(),
                  kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE("JSON text: bytes that are no UTF-8 become U+FFFD, in texts and in keys") {
@@ -25,15 +25,15 @@ TEST_CASE("JSON text: bytes that are no UTF-8 become U+FFFD, in texts and in key
 }
 
 TEST_CASE("JSON text: numbers that are not finite become words, at any depth") {
-  const Json value = {1.5, kInfinity, {{"x", -kInfinity}, {"y", {kNan, -kNan}}}};
+  const Json value = {1.5, kEndless, {{"x", -kEndless}, {"y", {kNan, -kNan}}}};
   CHECK(JsonText(value) == R"([1.5,"inf",{"x":"-inf","y":["nan","nan"]}])");
-  CHECK(JsonText(kInfinity) == "\"inf\"");
+  CHECK(JsonText(kEndless) == "\"inf\"");
   CHECK(value[1].is_number());  // and the value stays what it is
 }
 
 TEST_CASE("JSON text: what is read again is not written where its text says something else") {
   CHECK_NOTHROW(RequireWritable(Json{{"x", {1, 0.1, -5e-324, "\xC3\xA9"}}}));
-  CHECK_THROWS_AS(RequireWritable(Json{{"x", {kInfinity}}}), InternalError);
+  CHECK_THROWS_AS(RequireWritable(Json{{"x", {kEndless}}}), InternalError);
   CHECK_THROWS_AS(RequireWritable(Json{{"\xFF", 1}}), InternalError);
   CHECK(IsUtf8("\xC3\xA9"));
   CHECK(!IsUtf8(Json{{"x", {"\xA9"}}}));

@@ -66,7 +66,8 @@ bool IsSmall(const ExactProblem& problem) {
 void TakeMethods(const ProblemFile& file, const std::string& source) {
   for (const MethodFacts& facts : AllMethods()) {
     for (int a = 0; a < kArithmeticCount; ++a) {
-      Wanted wanted{.method = std::string(facts.name)};
+      Wanted wanted;
+      wanted.method = facts.name;
       wanted.arithmetic = Name(static_cast<Arithmetic>(a));
       wanted.options.limits = kLimits;
       Unrefused([&] {

@@ -785,7 +785,8 @@ TEST_CASE("report: of a loop in space it says what its certificate proves, in pa
     WriteReport(store, scratch / out);
     const std::string page = PagesOf(scratch / out);
     const bool endless = name == "endless";
-    CHECK(Has(page, "Under slip=redirect: " + (endless ? "no state recurs: " : "") + boxed + ", for ever"));
+    CHECK(Has(page, "Under slip=redirect: " + std::string(endless ? "no state recurs: " : "") + boxed +
+                        ", for ever"));
     CHECK_FALSE(Has(page, "recurs 6 drives later"));
     CHECK_FALSE(Has(page, "(21 steps in all)"));  // of a run that intervals ended early
     const auto rows = ReadTable(scratch / out / "findings.csv");
