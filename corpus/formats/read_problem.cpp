@@ -129,7 +129,7 @@ std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& 
     return model.InFactors(0);
   };
   try {
-    return std::visit(assembled, ParseAnyScene(json.dump(), source));
+    return std::visit(assembled, ParseAnyScene(JsonText(json), source));
   } catch (const InputError&) {  // a text in place of one, as where a problem came of it
     return std::nullopt;
   }

@@ -177,9 +177,9 @@ class SolverUnit {
     const std::string signature = examined.Signature(posed_.contacts.size());
     if (++result_.record.signatures[signature] > 1) return;
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
-    result_.candidates.push_back(SolverFinding(campaign_, unit_, index, process_,
-                                               JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))),
-                                               examined, leak));
+    result_.candidates.push_back(
+        SolverFinding(campaign_, unit_, index, process_,
+                      JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))), examined, leak));
     tell_(result_.candidates.back());
   }
 

@@ -12,8 +12,8 @@
 namespace stiction {
 namespace {
 
-using Problem = ContactProblem<double>;
-using Vector = Problem::Vector;
+using RefinedProblem = ContactProblem<double>;
+using RefinedVector = RefinedProblem::Vector;
 
 constexpr int kMostRows = 1200;     // beyond which a dense factorization takes too long
 constexpr int kRounds = 4;          // of modes that change
@@ -65,15 +65,15 @@ void CleanContact(const Contact<double>& contact, Motion motion, int tangents, c
 // Newton's method on the equations of given modes; the problem in units that suit it.
 class Refinement {
  public:
-  Refinement(const Problem& problem, FrictionLaw law, const Gate& gate)
+  Refinement(const RefinedProblem& problem, FrictionLaw law, const Gate& gate)
       : scale_(FindScale(problem)), problem_(Scaled(problem, scale_)), law_(law), gate_(gate) {}
 
   // Better forces, with their errors.
-  Refined Improve(Vector f, const Errors<double>& errors) {
+  Refined Improve(RefinedVector f, const Errors<double>& errors) {
     for (int i = 0; i < f.size(); ++i) f[i] = std::ldexp(f[i], -scale_.f[i]);
     best_ = {std::move(f), errors};
     for (const double shift : {0.0, kShift}) {
-      Vector now = best_.f;
+      RefinedVector now = best_.f;
       for (int round = 0; round < kRounds && !Passes(); ++round) {
         FindModes(now);
         if (!Solve(now, shift) || !Keep(now)) break;
@@ -98,13 +98,13 @@ class Refinement {
 
   // The modes that are nearest relative to all that acts at a row: beside forces that cancel noise is large in
   // the units of the gate, and would pass for slip.
-  void FindModes(const Vector& f) {
+  void FindModes(const RefinedVector& f) {
     meter_.Bound(problem_, law_, f, Gate{1, 1});
     modes_ = meter_.meter().modes();
   }
 
   // Cleans the forces by their modes, and keeps them if they are the best so far. Whether they are.
-  bool Keep(Vector& f) {
+  bool Keep(RefinedVector& f) {
     FindModes(f);
     Clean(problem_, modes_, meter_.a(), f);
     const Errors<double> errors = meter_.Bound(problem_, law_, f, gate_);
@@ -114,7 +114,7 @@ class Refinement {
   }
 
   // The direction of friction at its limit.
-  std::array<double, 2> Direction(const Vector& f, int row, int tangents) const {
+  std::array<double, 2> Direction(const RefinedVector& f, int row, int tangents) const {
     std::array<double, 2> d = {f[row + 1], tangents == 2 ? f[row + 2] : 0};
     double length = std::hypot(d[0], d[1]);
     if (length == 0) {
@@ -124,7 +124,7 @@ class Refinement {
     return length > 0 ? std::array<double, 2>{d[0] / length, d[1] / length} : std::array<double, 2>{0, 0};
   }
 
-  void ListUnknowns(const Vector& f) {
+  void ListUnknowns(const RefinedVector& f) {
     unknowns_.clear();
     directions_.clear();
     row_of_.clear();
@@ -161,8 +161,8 @@ class Refinement {
   }
 
   // How the accelerations change with an unknown.
-  Vector ResponseTo(const Unknown& unknown) const {
-    Vector response = problem_.A.col(unknown.row);
+  RefinedVector ResponseTo(const Unknown& unknown) const {
+    RefinedVector response = problem_.A.col(unknown.row);
     if (unknown.row != row_of_[unknown.contact] || !Follows(unknown.contact)) return response;
     const auto& contact = problem_.contacts[unknown.contact];
     for (int k = 0; k + 1 < problem_.dimension; ++k)
@@ -170,18 +170,19 @@ class Refinement {
     return response;
   }
 
-  void Assemble(const Vector& f, double shift) {
+  void Assemble(const RefinedVector& f, double shift) {
     const int size = static_cast<int>(unknowns_.size());
     M_.resize(size, size);
     for (int j = 0; j < size; ++j) {
-      const Vector response = ResponseTo(unknowns_[j]);
+      const RefinedVector response = ResponseTo(unknowns_[j]);
       for (int i = 0; i < size; ++i) M_(i, j) = Entry(unknowns_[i], unknowns_[j], f, response);
     }
     for (int i = 0; i < size; ++i)
       if (unknowns_[i].equation == Equation::kAcceleration) M_(i, i) += shift;
   }
 
-  double Entry(const Unknown& of, const Unknown& by, const Vector& f, const Vector& response) const {
+  double Entry(const Unknown& of, const Unknown& by, const RefinedVector& f,
+               const RefinedVector& response) const {
     if (of.equation == Equation::kAcceleration) return response[of.row];
     const int normal = row_of_[of.contact], first = normal + 1;
     const std::array<double, 2>& d = directions_[of.contact];
@@ -199,9 +200,9 @@ class Refinement {
   }
   static double Across(const std::array<double, 2>& d, int k) { return k == 0 ? -d[1] : d[0]; }
 
-  Vector Residual(const Vector& f) const {
-    const Vector& a = meter_.a();
-    Vector residual(unknowns_.size());
+  RefinedVector Residual(const RefinedVector& f) const {
+    const RefinedVector& a = meter_.a();
+    RefinedVector residual(unknowns_.size());
     for (int i = 0; i < residual.size(); ++i) {
       const Unknown& unknown = unknowns_[i];
       const int normal = row_of_[unknown.contact], first = normal + 1;
@@ -218,13 +219,13 @@ class Refinement {
   }
 
   // Of contacts that slip in space, to where friction has turned.
-  void Turn(const Vector& f) {
+  void Turn(const RefinedVector& f) {
     for (const Unknown& unknown : unknowns_)
       if (unknown.equation == Equation::kLimit)
         directions_[unknown.contact] = Direction(f, row_of_[unknown.contact], 2);
   }
 
-  void Follow(Vector& f) const {
+  void Follow(RefinedVector& f) const {
     for (const Unknown& unknown : unknowns_) {
       if (unknown.row != row_of_[unknown.contact] || !Follows(unknown.contact)) continue;
       const auto& contact = problem_.contacts[unknown.contact];
@@ -234,7 +235,7 @@ class Refinement {
   }
 
   // Steps from f, by the modes that were found of it. False if they lead nowhere.
-  bool Solve(Vector& f, double shift) {
+  bool Solve(RefinedVector& f, double shift) {
     ListUnknowns(f);
     if (unknowns_.empty()) return true;
     if (static_cast<int>(unknowns_.size()) > kMostRows) return false;
@@ -247,7 +248,7 @@ class Refinement {
         Assemble(f, shift);
         lu_.compute(M_);
       }
-      const Vector change = lu_.solve(Residual(f));
+      const RefinedVector change = lu_.solve(Residual(f));
       if (!change.allFinite()) return false;
       for (std::size_t i = 0; i < unknowns_.size(); ++i) f[unknowns_[i].row] -= change[i];
       Follow(f);
@@ -256,7 +257,7 @@ class Refinement {
   }
 
   RowScale scale_;
-  Problem problem_;
+  RefinedProblem problem_;
   FrictionLaw law_;
   Gate gate_;
   GateMeter<double> meter_;
@@ -271,7 +272,8 @@ class Refinement {
 
 }  // namespace
 
-void Clean(const Problem& problem, const std::vector<Motion>& modes, const Vector& a, Vector& f) {
+void Clean(const RefinedProblem& problem, const std::vector<Motion>& modes, const RefinedVector& a,
+           RefinedVector& f) {
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const int count = RowsOf(problem.contacts[i], problem.dimension);
@@ -280,7 +282,7 @@ void Clean(const Problem& problem, const std::vector<Motion>& modes, const Vecto
   }
 }
 
-Refined Refine(const Problem& problem, FrictionLaw law, const Gate& gate, Vector f) {
+Refined Refine(const RefinedProblem& problem, FrictionLaw law, const Gate& gate, RefinedVector f) {
   GateMeter<double> meter;
   Refined best{f, BoundErrors(problem, law, f, gate, meter)};
   const auto passes = [&] { return best.errors.Largest() <= gate.eps; };

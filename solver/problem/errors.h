@@ -294,15 +294,19 @@ class ErrorMeter {
     return missed > 0 ? Capped(InUnits(missed, unit_[row])) : Scalar(0);
   }
 
-  // What force j does to the row that notices it most, in units of that row: 0 where no row notices.
+  // What force j does to the row that notices it most, in units of that row. One that no row notices, as no
+  // force acts there, is a force all the same.
   template <class Problem, class Vector>
   Scalar Noticed(const Problem& problem, const Vector& f, int j) const {
     Scalar most(0);
     if (f[j] == 0) return most;
+    bool acts = false;
     ForEachInColumn(problem.A, j, [&](int i, const auto& x) {
-      if (x != 0) most = std::max(most, RowError(Scalar(Abs(Scalar(Scalar(x) * f[j]))), i));
+      if (x == 0) return;
+      acts = true;
+      most = std::max(most, RowError(Scalar(Abs(Scalar(Scalar(x) * f[j]))), i));
     });
-    return most;
+    return acts ? most : most_;
   }
 
   // A contact: its mode, and what its rows miss there.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A right solver of the frictionless problem, by trying which contacts press; and with -DBUG_... one that is wrong
- * where under_test_test.py says. -DLAW says another law. -DRARE makes the conditions of the bugs as rare as they are asked to be. */
+/* A right solver of the frictionless problem, by trying which contacts press; and with -DBUG_... one that is
+ * wrong where under_test_test.py says. -DLAW says another law. -DRARE makes the conditions of the bugs as rare
+ * as they are asked to be. */
 #include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -54,7 +55,8 @@ static int press(const stiction_solver_problem* p, unsigned set, double* f) {
 static int holds(const stiction_solver_problem* p, const double* f) {
   for (int i = 0; i < p->rows; ++i) {
     double a = p->b[i], size = fabs(p->b[i]);
-    for (int j = 0; j < p->rows; ++j) a += p->A[i * p->rows + j] * f[j], size += fabs(p->A[i * p->rows + j] * f[j]);
+    for (int j = 0; j < p->rows; ++j)
+      a += p->A[i * p->rows + j] * f[j], size += fabs(p->A[i * p->rows + j] * f[j]);
     if (a < -1e-9 * size || f[i] < 0) return 0;
   }
   return 1;

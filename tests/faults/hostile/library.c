@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Libraries under test that mean no good: the name of the file, NAME.so, says what they do (hostile_test.py). */
+/* Libraries under test that mean no good: the name of the file, NAME.so, says what they do (hostile_test.py).
+ */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
