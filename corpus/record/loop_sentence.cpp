@@ -22,7 +22,7 @@ ProofKind KindInSpace(const Json& certificate) {
 const Json& RunUnder(const Json& runs, const std::string& policy) {
   for (const Json& run : runs) {
     const Json& policies = run.at("policies");
-    if (std::ranges::find(policies, Json(policy)) != policies.end()) return run;
+    if (std::find(policies.begin(), policies.end(), Json(policy)) != policies.end()) return run;
   }
   return runs.at(0);
 }
@@ -30,7 +30,7 @@ const Json& RunUnder(const Json& runs, const std::string& policy) {
 bool IsOfRuns(const Json& certificate) {
   constexpr std::string_view kClaims[] = {"cycle", "counterexample", "endless", "ray"};
   return certificate.is_object() &&
-         std::ranges::find(kClaims, certificate.value("claim", "")) != std::end(kClaims);
+         std::find(std::begin(kClaims), std::end(kClaims), certificate.value("claim", "")) != std::end(kClaims);
 }
 
 // "the state after 3 drives".
