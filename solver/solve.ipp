@@ -229,12 +229,14 @@ Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw la
     return refined.errors;
   } else if constexpr (std::is_same_v<Scalar, float>) {
     const auto doubles = Converted<double>(problem, [](float x) { return static_cast<double>(x); });
-    const Errors<double> given = BoundErrors(doubles, law, f.template cast<double>().eval(), gate);
-    if (given.Largest() <= gate.eps) return given;
-    const auto refined = Refine(doubles, law, gate, f.template cast<double>()).f.template cast<float>().eval();
-    const Errors<double> errors = BoundErrors(doubles, law, refined.template cast<double>().eval(), gate);
-    if (!(errors.Largest() < given.Largest())) return given;
-    f = refined;
+    const Eigen::VectorXd first = f.template cast<double>();
+    const Errors<double> given = BoundErrors(doubles, law, first, gate);
+    const Refined refined = Refine(doubles, law, gate, first);
+    if (refined.f == first) return given;
+    const auto narrow = refined.f.template cast<float>().eval();
+    const Errors<double> errors = BoundErrors(doubles, law, narrow.template cast<double>().eval(), gate);
+    if (!(errors.Largest() < given.Largest() || errors.Largest() <= gate.eps)) return given;
+    f = narrow;
     return errors;
   } else {
     return BoundErrors(problem, law, f, gate);

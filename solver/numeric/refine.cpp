@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 #include "solver/problem/row_scale.h"
 
 namespace stiction {
@@ -67,6 +69,18 @@ class Refinement {
  public:
   Refinement(const RefinedProblem& problem, FrictionLaw law, const Gate& gate)
       : scale_(FindScale(problem)), problem_(Scaled(problem, scale_)), law_(law), gate_(gate) {}
+
+  // The least forces of the same modes, or about them, if they pass.
+  Refined Loosen(RefinedVector f, const Errors<double>& errors) {
+    const Refined given{f, errors};
+    for (int i = 0; i < f.size(); ++i) f[i] = std::ldexp(f[i], -scale_.f[i]);
+    best_ = {f, Errors<double>{}};
+    best_.errors.acceleration = std::numeric_limits<double>::infinity();
+    FindModes(f);
+    if (!Solve(f, kShift, /*from_zero=*/true) || !Keep(f) || !Passes()) return given;
+    for (int i = 0; i < f.size(); ++i) best_.f[i] = std::ldexp(best_.f[i], scale_.f[i]);
+    return best_;
+  }
 
   // Better forces, with their errors.
   Refined Improve(RefinedVector f, const Errors<double>& errors) {
@@ -235,11 +249,13 @@ class Refinement {
   }
 
   // Steps from f, by the modes that were found of it. False if they lead nowhere.
-  bool Solve(RefinedVector& f, double shift) {
+  bool Solve(RefinedVector& f, double shift, bool from_zero = false) {
     ListUnknowns(f);
     if (unknowns_.empty()) return true;
     if (static_cast<int>(unknowns_.size()) > kMostRows) return false;
     const bool turns = problem_.dimension == 3;  // the equations change with the direction of friction
+    for (const Unknown& unknown : unknowns_)
+      if (from_zero && unknown.equation == Equation::kAcceleration) f[unknown.row] = 0;
     Follow(f);
     for (int step = 0; step < kSteps; ++step) {
       meter_.Accelerate(problem_, f, Gate{0, 0});  // every row with twice the digits
@@ -270,6 +286,25 @@ class Refinement {
   Refined best_;
 };
 
+// Forces that press against each other by far more than b asks for lend their rounding to rows that need none
+// of it.
+bool IsJammed(const RefinedProblem& problem, const Gate& gate, const RefinedVector& f) {
+  double forces = 0, free = 0;  // of every contact as if its A_ii were 1
+  for (int i = 0; i < f.size(); ++i) {
+    const double own = std::sqrt(std::abs(problem.A(i, i)));
+    forces = std::max(forces, std::abs(f[i]) * own);
+    if (own > 0) free = std::max(free, std::abs(problem.b[i]) / own);
+  }
+  return forces * std::sqrt(gate.tau) > free && free > 0;
+}
+
+// Whether what is missed may be noise.
+bool IsNear(const RefinedProblem& problem, FrictionLaw law, const RefinedVector& f) {
+  const RefinedVector a = problem.A * f + problem.b;
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, law, f, a, units).error < kHopeless;
+}
+
 }  // namespace
 
 void Clean(const RefinedProblem& problem, const std::vector<Motion>& modes, const RefinedVector& a,
@@ -286,12 +321,17 @@ Refined Refine(const RefinedProblem& problem, FrictionLaw law, const Gate& gate,
   GateMeter<double> meter;
   Refined best{f, BoundErrors(problem, law, f, gate, meter)};
   const auto passes = [&] { return best.errors.Largest() <= gate.eps; };
-  if (passes() || !best.errors.is_finite) return best;
+  if (!best.errors.is_finite) return best;
+  if (passes()) {
+    if (!IsJammed(problem, gate, f)) return best;
+    const Refined loose = Refinement(problem, law, gate).Loosen(best.f, best.errors);
+    return IsJammed(problem, gate, loose.f) ? best : loose;
+  }
   meter.Bound(problem, law, f, Gate{1, 1});
   Clean(problem, meter.meter().modes(), meter.a(), f);
   const Errors<double> cleaned = BoundErrors(problem, law, f, gate, meter);
   if (cleaned.Largest() < best.errors.Largest()) best = {f, cleaned};
-  if (passes() || !(best.errors.backward < kHopeless)) return best;
+  if (passes() || !IsNear(problem, law, best.f)) return best;
   return Refinement(problem, law, gate).Improve(best.f, best.errors);
 }
 

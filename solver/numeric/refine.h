@@ -14,6 +14,10 @@
 //            solves the equations of the modes. Where they are singular, as of forces that are not unique, M +
 //            shift I is factored and the steps repeated.
 //
+// Forces that pass, and press against each other by far more than b asks for, as a method may leave them where
+// mu is large, are replaced by about the least ones of the same modes where these pass too: a jam lends its
+// roundings.
+//
 // Forces are taken only if the gate lets them pass, or at least finds smaller errors. Shapes: f rows x 1. Cost:
 // of cleaning one product A f; of refining a factorization of the rows that touch.
 

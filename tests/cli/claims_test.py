@@ -11,6 +11,9 @@ import cli
 CORPUS = cli.ROOT / "corpus"
 ASYMMETRIC = {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]}
 INDEFINITE = {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]}
+INDEFINITE_AT_REST = {"A": [["-1", "0"], ["0", "1"]], "b": ["1", "0"], "mu": "1"}
+SLIPS_IN_SPACE = {"dimension": 3, "contacts": [{"kind": "static", "mu": "1"}],
+                  "A": [["2", "0", "0"], ["0", "3", "0"], ["0", "0", "3"]], "b": ["-2", "3", "4"]}
 SINGULAR = {**cli.SOLVED, "A": [["1", "1"], ["1", "1"]]}  # b is not in its range
 STATIC = {"kind": "static", "mu": "1"}
 NONE = CORPUS / "no-solution-zero-matrix.json"
@@ -55,13 +58,14 @@ TABLE = {
     "definite": ((cli.SOLVED, "definite"), (SINGULAR, "not-definite"), NEVER),
     "in-range": ((cli.SOLVED, "in-range"), (SINGULAR, "not-in-range"), NEVER),
     "h": ((cli.SOLVED, "h"), (SINGULAR, "not-h"), NEVER),  # but in space, where it hangs on a point of a circle
-    "exists": ((cli.SOLVED, "exists"), (NONE, "no-solution"), (INDEFINITE, [], "the theorem does not speak of it")),
+    "exists": ((cli.SOLVED, "exists"), (NONE, "no-solution"), (INDEFINITE_AT_REST, [], "the theorem does not speak of it")),
     "safe": ((cli.SOLVED, "safe"), (cli.REFERENCE, "unsafe"), (MANY, [], "more than 65,536 words")),
     "safe-by-condition": ((CORPUS / "safe-by-condition.json", "safe-by-condition"), (cli.REFERENCE, "unsafe"),
                           (MANY, [], "no scaling was found")),
     "cycle": ((cli.REFERENCE, "cycle"), (cli.SOLVED, None), (cli.REFERENCE, ["--max-drives", 2], "out of drives")),
-    "ray": ((CORPUS / "space/ray-under-slip-literal.json", "ray"), (REST, None), (REST, ["--max-drives", 1], "out of drives")),
-    "endless": ((CORPUS / "space/no-state-twice.json", "endless"), (REST, None),
+    "ray": ((CORPUS / "space/ray-under-slip-literal.json", "ray"), (SLIPS_IN_SPACE, None),
+            (REST, ["--max-drives", 1], "out of drives")),
+    "endless": ((CORPUS / "space/no-state-twice.json", "endless"), (SLIPS_IN_SPACE, None),
                 (REST, ["--max-drives", 1], "out of drives")),
     "counterexample": ((cli.REFERENCE, "counterexample"), (cli.SOLVED, None),
                        (cli.REFERENCE, ["--max-drives", 2], "out of drives")),

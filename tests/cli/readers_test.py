@@ -32,7 +32,7 @@ class Readers(cli.TestCase):
 
     def test_factors_whose_J_is_no_matrix_are_refused_by_name(self):
         file = PROBLEMS / "segv-factors-J.json"
-        for verb in (["solve"], ["explain"], ["replay"], ["certify"], ["export", "-o", "out.dat"],
+        for verb in (["solve"], ["explain"], ["replay"], ["certify", "-o", "c.json"], ["export", "-o", "out.dat"],
                      ["import", "-o", "out.json"]):
             self.refuses(*verb, file, cwd=self.folder, says=f"{file}: factors.J: found 0, expected")
         done = self.succeeds("survey", file, "--json", code=2)
@@ -44,7 +44,7 @@ class Readers(cli.TestCase):
                 done = cli.run("solve", file, "--method", method, "--json")
                 self.assertIn(done.code, (1, 2, 3), (file.name, method, done.err))
             explained = self.succeeds("explain", file, "--json").json()
-            self.assertIn("no-solution", [claim["claim"] for claim in explained["claims"] if claim["certificate"]])
+            self.assertIn("no-solution", [claim["certificate"] for claim in explained["claims"]])
             self.succeeds("explain", file)
             self.succeeds("survey", file, "--json")
 
