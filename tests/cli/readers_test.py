@@ -32,7 +32,7 @@ class Readers(cli.TestCase):
 
     def test_factors_whose_J_is_no_matrix_are_refused_by_name(self):
         file = PROBLEMS / "segv-factors-J.json"
-        for verb in (["solve"], ["explain"], ["replay"], ["certify", "-o", "c.json"], ["export", "--format", "siconos", "-o", "out.dat"],
+        for verb in (["solve"], ["explain"], ["replay"], ["certify", "-o", "c.json"], ["export", "--format", "siconos-fc", "-o", "out.dat"],
                      ["import", "-o", "out.json"]):
             self.refuses(*verb, file, cwd=self.folder, says=f"{file}: factors.J: found 0, expected")
         done = self.succeeds("survey", file, "--json", code=2)
