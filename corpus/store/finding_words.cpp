@@ -22,7 +22,8 @@ ProvedRun ByFacts(const Finding& finding, const char* key) {
   const Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   if (!facts.contains(key)) return {};
   const bool in_space = ParseProblem(finding.problem, finding.signature).problem.dimension == 3;
-  const auto count = [&](const char* name) { return facts.at(key).at(name).get<std::int64_t>(); };
+  // Facts of earlier builds have fewer counts.
+  const auto count = [&](const char* name) { return facts.at(key).value(name, std::int64_t{0}); };
   if (in_space) return {ProofKind::kNone, count("start"), count("period"), 0};
   return {ProofKind::kStates, count("start"), count("period"), count("steps")};
 }

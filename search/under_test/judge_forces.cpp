@@ -174,6 +174,8 @@ Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accura
 
 // By the strict gate, which accuses more than is asked here: what it lets pass needs no rationals.
 bool IsRight(const ContactProblem<double>& posed, const Rational& accuracy, const Eigen::VectorXd& f) {
+  for (int j = 0; j < f.size(); ++j)
+    if (f[j] != 0 && posed.A.col(j).isZero(0)) return false;  // a force that acts on nothing
   const double eps = std::min(ToDouble(accuracy), kSolvedResidual<double>);
   return eps > 0 && BoundErrors(posed, FrictionLaw::kCoulomb, f, GateOf<double>(eps)).Largest() <= eps;
 }

@@ -18,6 +18,7 @@ using RefinedProblem = ContactProblem<double>;
 using RefinedVector = RefinedProblem::Vector;
 
 constexpr int kMostRows = 1200;     // beyond which a dense factorization takes too long
+constexpr int kFewRows = 60;        // up to which it is tried whatever is missed
 constexpr int kRounds = 4;          // of modes that change
 constexpr int kSteps = 4;           // of Newton's method, for given modes
 constexpr double kShift = 1e-9;     // beside diagonals of about 1
@@ -331,7 +332,8 @@ Refined Refine(const RefinedProblem& problem, FrictionLaw law, const Gate& gate,
   Clean(problem, meter.meter().modes(), meter.a(), f);
   const Errors<double> cleaned = BoundErrors(problem, law, f, gate, meter);
   if (cleaned.Largest() < best.errors.Largest()) best = {f, cleaned};
-  if (passes() || !IsNear(problem, law, best.f)) return best;
+  const bool is_cheap = problem.rows() <= kFewRows;
+  if (passes() || !(is_cheap || IsNear(problem, law, best.f))) return best;
   return Refinement(problem, law, gate).Improve(best.f, best.errors);
 }
 

@@ -180,7 +180,7 @@ TEST_CASE("gate: a neighbour without force, however heavily loaded, does not hol
     CAPTURE(method);
     const Answer<double> answer = Solve(Rounded<double>(shadow), method);
     CHECK(answer.Solved());
-    CHECK(answer.f[0] == Approx(2.3e-5).epsilon(1e-2));
+    if (answer.Solved()) CHECK(answer.f[0] == Approx(2.3e-5).epsilon(1e-2));
   }
 }
 
