@@ -2,9 +2,10 @@
 #include "scene/solve_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/problem/row_scale.h"
 
@@ -29,12 +30,28 @@ double NoiseOf(const Problem& problem) {
   return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
 }
 
-// The largest error of forces.
+// The largest lenient error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  GateMeter<double> meter;
-  const Gate gate = GateOf<double>();
-  return BoundErrors(problem, FrictionLaw::kCoulomb, f, gate, meter, NoiseOf(problem)).Largest();
+  Eigen::VectorXd a = problem.A * f + problem.b;
+  const double noise = NoiseOf(problem);
+  for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
+}
+
+// Whether bodies are pressed against each other by far more than moves them: where there is no solution, forces
+// that grow without end nearly are one.
+template <class Problem>
+bool IsJammed(const Problem& problem, const Eigen::VectorXd& f) {
+  constexpr double kMost = 1e7;
+  double forces = 0, free = 0;  // of every contact as if its A_ii were 1
+  for (int i = 0; i < f.size(); ++i) {
+    const double own = std::sqrt(std::abs(problem.A.coeff(i, i)));
+    forces = std::max(forces, std::abs(f[i]) * own);
+    if (own > 0) free = std::max(free, std::abs(problem.b[i]) / own);
+  }
+  return forces > kMost * free;
 }
 
 // Errors of a problem with the rows that reduction took out.
@@ -151,8 +168,9 @@ bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error err
   double least = kLooseResidual;
   for (const Turn& turn : kTurns) {
     if (turn.friction != friction || turn.dimension != problem.dimension) continue;
-    if ((this->*turn.run)(problem, answer)) return true;
-    if (answer.f.size() != problem.rows() || !answer.f.allFinite()) continue;
+    const bool solved = (this->*turn.run)(problem, answer);
+    if (answer.f.size() != problem.rows() || !answer.f.allFinite() || IsJammed(problem, answer.f)) continue;
+    if (solved) return true;
     const double error = error_of(answer.f);
     if (error <= kWholeResidual) return true;
     if (!(error <= least)) continue;

@@ -621,6 +621,7 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   Layout layout(problem, BehaviorsNear(problem, a, units));
   const Eigen::VectorXd centred = CentredForces(rounded, layout, f, a);
   for (std::size_t k = 0; k < layout.kept.size(); ++k) f[layout.kept[k]] = centred[k];
+  if (!f.allFinite()) throw NothingShown{"no forces were found in the middle of those that are allowed"};
   FixedForces fixed = FixDependent(problem, rounded, layout);
   Doubles::Vector given = Doubles::Vector::Zero(f.size());
   for (auto& [row, force] : fixed) {
@@ -631,7 +632,9 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   Improve(rounded, layout, given, x);
   const BoxSystem<double> system(rounded, layout, given, x);
   RequireNondegenerate(rounded, layout, system, units);
-  return FindBox(problem, layout, fixed, x, system.Slopes().inverse());
+  const Eigen::MatrixXd inverse = system.Slopes().inverse();
+  if (!inverse.allFinite()) throw NothingShown{"the equations of these modes are singular over doubles"};
+  return FindBox(problem, layout, fixed, x, inverse);
 }
 
 // Where no box is found, there may be no solution at all.

@@ -81,7 +81,7 @@ int RowsOf(const Json& contacts, int dimension) {
 Json FreeAccelerations(int kind, int rows) {
   Json b = Json::array();
   for (int i = 0; i < rows; ++i)
-    b.push_back(kind == 0 ? "0" : kind == 1 ? (i == 0 ? "-1" : "1/3") : i % 2 == 0 ? "-1e200" : "1e-320");
+    b.push_back(kind == 0 ? "0" : kind == 1 ? (i == 0 ? "-1" : "1/3") : i % 2 == 0 ? "-1e200" : "1e-300");
   return b;
 }
 constexpr int kLoads = 3;
