@@ -148,13 +148,11 @@ Answer<double> SolveRegularized(const ContactProblem<double>& problem, const std
   return answer;
 }
 
-// One step: the equations of the cells where the answer ended, for the residual with twice the digits.
+// One step: the equations of the cells where the answer ended, for the residual in long double.
 Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::string& method) {
   Answer<double> answer = Solve(problem, method);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return answer;
-  GateMeter<double> meter;
-  meter.Accelerate(problem, answer.f, Gate{0, 0});
-  const Eigen::VectorXd& a = meter.a();
+  const LongVector a = Recompute(problem, answer.f.cast<long double>());
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   // Forces that press and rest are unknown, as their numbers tell.
@@ -170,7 +168,7 @@ Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::st
     sets[row + 1] = slack > scale.force ? IndexSet::kSticking : limit;
   }
   ContactProblem<double> rest = problem;
-  rest.b = a;
+  rest.b = a.cast<double>();
   using System = DirectionSystem<double, Eigen::Dynamic>;
   System system;
   system.Start(rest);
@@ -324,7 +322,7 @@ Json Measure(const Source& source, const std::vector<LadderRow>& rows, std::int6
 
 std::string CsvText(const Json& cell) {
   if (cell.is_null()) return "";
-  return cell.is_string() ? cell.get<std::string>() : JsonText(cell);
+  return cell.is_string() ? cell.get<std::string>() : cell.dump();
 }
 
 // Arrays become columns: name_low, name_median, name_high of three, name_low, name_high of two.

@@ -39,21 +39,15 @@ inline Vector3<double> SpinOf(const ChangeIn<Space>& change) { return change.tai
 inline double RateOf(double spin) { return std::abs(spin); }
 inline double RateOf(const Vector3<double>& spin) { return spin.norm(); }
 
-// How far its pieces are from its centre, m.
+// A bound of the speed of its points, m/s.
 template <class Kind>
-double RadiusOf(const BodyIn<Kind, double>& body) {
+double FastestPoint(const BodyIn<Kind, double>& body) {
   double radius = 0;
   for (const auto& shape : body.shapes) {
     radius = std::max(radius, shape.center.norm() + shape.radius);
     for (const auto& corner : shape.corners) radius = std::max(radius, corner.norm());
   }
-  return radius;
-}
-
-// A bound of the speed of its points, m/s.
-template <class Kind>
-double FastestPoint(const BodyIn<Kind, double>& body) {
-  return body.velocity.norm() + RateOf(body.spin) * RadiusOf(body);
+  return body.velocity.norm() + RateOf(body.spin) * radius;
 }
 
 template <class Kind>

@@ -2,10 +2,9 @@
 #include "scene/solve_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "solver/problem/lenient.h"
+#include "solver/problem/gate.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/problem/row_scale.h"
 
@@ -30,28 +29,14 @@ double NoiseOf(const Problem& problem) {
   return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
 }
 
-// The largest lenient error of forces.
+// The largest error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  Eigen::VectorXd a = problem.A * f + problem.b;
+  const LongVector forces = f.template cast<long double>();
+  LongVector a = Recompute(problem, forces);
   const double noise = NoiseOf(problem);
-  for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
-  LenientUnits<double> units;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
-}
-
-// Whether bodies are pressed against each other by far more than moves them: where there is no solution, forces
-// that grow without end nearly are one.
-template <class Problem>
-bool IsJammed(const Problem& problem, const Eigen::VectorXd& f) {
-  constexpr double kMost = 1e7;
-  double forces = 0, free = 0;  // of every contact as if its A_ii were 1
-  for (int i = 0; i < f.size(); ++i) {
-    const double own = std::sqrt(std::abs(problem.A.coeff(i, i)));
-    forces = std::max(forces, std::abs(f[i]) * own);
-    if (own > 0) free = std::max(free, std::abs(problem.b[i]) / own);
-  }
-  return forces > kMost * free;
+  for (long double& x : a) x = Abs(x) <= noise ? 0 : x;
+  return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
 }
 
 // Errors of a problem with the rows that reduction took out.
@@ -168,9 +153,8 @@ bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error err
   double least = kLooseResidual;
   for (const Turn& turn : kTurns) {
     if (turn.friction != friction || turn.dimension != problem.dimension) continue;
-    const bool solved = (this->*turn.run)(problem, answer);
-    if (answer.f.size() != problem.rows() || !answer.f.allFinite() || IsJammed(problem, answer.f)) continue;
-    if (solved) return true;
+    if ((this->*turn.run)(problem, answer)) return true;
+    if (answer.f.size() != problem.rows() || !answer.f.allFinite()) continue;
     const double error = error_of(answer.f);
     if (error <= kWholeResidual) return true;
     if (!(error <= least)) continue;
@@ -197,7 +181,6 @@ bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
-  if (problem.rows() == 0) return false;
   const double eps = kProximal * problem.A.diagonal().maxCoeff();
   Dense near = problem;
   near.A.diagonal().array() += eps;

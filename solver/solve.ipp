@@ -14,7 +14,6 @@
 
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"
-#include "solver/numeric/refine.h"
 #include "solver/problem/ball.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/remainder.h"
@@ -218,43 +217,20 @@ Answer<Scalar> RunAsIs(const Method<Scalar>& method, const ContactProblem<Scalar
   return answer;
 }
 
-// Forces of float and double are refined where the gate asks for it; wider ones are, when they are told in
-// doubles.
-template <class Scalar>
-Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw law, const Gate& gate,
-                           typename ContactProblem<Scalar>::Vector& f) {
-  if constexpr (std::is_same_v<Scalar, double>) {
-    Refined refined = Refine(problem, law, gate, f);
-    f = std::move(refined.f);
-    return refined.errors;
-  } else if constexpr (std::is_same_v<Scalar, float>) {
-    const auto doubles = Converted<double>(problem, [](float x) { return static_cast<double>(x); });
-    const Eigen::VectorXd first = f.template cast<double>();
-    const Errors<double> given = BoundErrors(doubles, law, first, gate);
-    const Refined refined = Refine(doubles, law, gate, first);
-    if (refined.f == first) return given;
-    const auto narrow = refined.f.template cast<float>().eval();
-    const Errors<double> errors = BoundErrors(doubles, law, narrow.template cast<double>().eval(), gate);
-    if (!(errors.Largest() < given.Largest() || errors.Largest() <= gate.eps)) return given;
-    f = narrow;
-    return errors;
-  } else {
-    return BoundErrors(problem, law, f, gate);
-  }
-}
-
 template <class Scalar>
 void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer) {
   if (answer.f.size() != problem.rows()) {
     if (answer.Solved()) answer.outcome = Outcome::kUndecided;
     return;
   }
-  const bool claims = answer.Solved() || answer.outcome == Outcome::kUndecided;
-  const Gate gate = GateOf<Scalar>(bound);
-  answer.errors = claims ? JudgeForces(problem, answer.law, gate, answer.f)
-                         : BoundErrors(problem, answer.law, answer.f, gate);
   answer.a = problem.A * answer.f + problem.b;
+  const LongVector f = answer.f.template cast<long double>();
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
+  if constexpr (kIsFloatingPoint<Scalar>) {
+    answer.errors = BoundErrors(problem, answer.law, f);
+  } else {
+    answer.errors = BoundErrors(InLongDouble(problem), answer.law, f);
+  }
   const bool passes = is_finite && answer.errors->Largest() <= bound;
   if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits
     answer.outcome = Outcome::kSolved;

@@ -28,11 +28,8 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const SolveOption
   if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, options);
   answer.law = FrictionLaw::kCoulomb;
   answer.f = Eigen::VectorXd::Zero(problem.rows());
-  if (problem.rows() == 0) {
-    answer.outcome = Outcome::kSolved;
-  } else {
-    answer.reason = "A is not symmetric and positive semidefinite, or too large for a dense J";
-  }
+  answer.reason = "A is not symmetric and positive semidefinite, or too large for a dense J";
+  if (problem.rows() == 0) answer.outcome = Outcome::kSolved;
   return answer;
 }
 

@@ -31,9 +31,7 @@ Method<double> NewtonBodiesRow();
 template <class Problem>
 void JudgeExactly(const Problem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
                   double bound, InexactAnswer& answer) {
-  ErrorMeter<Rational> meter;
-  const Rational theta(GateOf<double>(bound).theta());
-  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, meter, theta);
+  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
   Errors<double> errors;
   errors.acceleration = ToDouble(exact.acceleration);
   errors.force = ToDouble(exact.force);

@@ -61,7 +61,7 @@ struct WantedClaim {
   std::string_view dashes = "--";
 };
 
-// What became of the claim that is asked for (certify/claims/claim_answer.h).
+// CertifyClaim of what is asked for.
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration);
 

@@ -15,7 +15,6 @@
 #include "certify/request/escalate.h"
 #include "certify/request/quad.h"
 #include "certify/request/rest.h"
-#include "certify/request/rounded_problem.h"
 #include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -62,8 +61,8 @@ ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest&
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
 ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
-  LenientUnits<double> units;
-  units.Take(problem, answer.f);
+  Units<double> units;
+  units.Take(problem, answer.f, answer.a);
   ExactVector moving = ExactVector::Zero(answer.a.size());
   for (int i = 0; i < moving.size(); ++i) {
     const bool moves = answer.a_enclosed.empty()
@@ -74,14 +73,13 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
   return moving;
 }
 
-// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; file(): that of
-// which it is a rounding.
-template <class File>
-void PreferRestRounded(const ContactProblem<double>& rounded, File file, const SolveRequest& request,
-                       InexactAnswer& answer) {
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; `exact`: that of
+// which it is a rounding, or null where it is the same.
+void PreferRest(const ContactProblem<double>& rounded, const ExactProblem* exact, const SolveRequest& request,
+                InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const auto rest = ForcesAtRest(file(), f, Moving(rounded, answer));
+  const auto rest = ForcesAtRest(exact != nullptr ? *exact : Unrounded(rounded), f, Moving(rounded, answer));
   if (!rest) return;
   InexactAnswer resting = answer;
   resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
@@ -116,41 +114,36 @@ InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest requ
 void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
   InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
   InexactAnswer again = RunFinely(ran, request);
-  again.arithmetic = first.arithmetic;
   again.pivots = std::move(first.pivots);
   solution.suspected = std::exchange(first, std::move(again));
 }
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
-template <class Scalar>
-void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request, Solution& solution) {
-  const InexactAnswer first = std::get<InexactAnswer>(solution.answer);
+void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
+  const InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
   const MethodFacts* facts = FindMethodFacts(request.method);
   const bool is_path = facts != nullptr && facts->HasPath();
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
-  const int dimension = problem.numbers().dimension;
-  if (dimension == 3 && request.method == "baraff") {
-    RunAgainInSpace(
-        Converted<double>(problem.numbers(), [](const Scalar& x) { return static_cast<double>(x); }), request,
-        solution);
-    return;
-  }
-  if (dimension != 2 || !facts->IsBuilt(dimension, Arithmetic::kExact)) return;
+  if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
+  if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
   solution.suspected = first;
-  if (problem.IsFile()) {
-    solution.answer = SolveExactly(problem.File(), request);
-  } else {
-    solution.answer = problem.RunExactly(request, BoundOf<Scalar>(request.options));
-  }
+  solution.answer = SolveExactly(Unrounded(ran), request);
 }
 
-// What decides exactly decides the problem of the file, in whatever numbers its forces are asked for: these are
-// rounded, and judged on the problem that is rounded as they are.
+// What decides exactly, asked for rounded numbers: its forces are rounded, and then judged.
 template <class Scalar>
-Solution SolveAndRound(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
-  ExactAnswer exact = SolveExactly(problem.File(), request);
-  if (exact.outcome == Outcome::kNoSolution) return {.answer = std::move(exact)};
-  return {.answer = problem.Told(exact, request.arithmetic, BoundOf<Scalar>(request.options))};
+Answer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveRequest& request, double bound) {
+  const ExactAnswer exact = SolveExactly(Unrounded(problem), request);
+  Answer<Scalar> answer;
+  answer.outcome = exact.outcome;
+  answer.reason = exact.reason;
+  answer.method = exact.method;
+  answer.counters = exact.counters;
+  answer.f = exact.f.unaryExpr([](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); });
+  answer.first_f = answer.f;
+  answer.first_f.setZero();
+  JudgeAnswer(problem, bound, answer);
+  return answer;
 }
 
 // The row that is built over doubles alone; null if there is none.
@@ -164,17 +157,13 @@ const Method<Scalar>* FindOverDoubles(std::string_view name) {
   return nullptr;
 }
 
-// Whether a row of the tables over the scalar has the method, or `auto` chooses from them.
-template <class Scalar>
-bool IsFloatingMethod(std::string_view name) {
-  return name == kAutomatic || FindMethod<Scalar>(name) != nullptr || FindOverDoubles<Scalar>(name) != nullptr;
-}
-
 template <class Scalar>
 Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+  if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
+    return SolveWithPath(problem, request);
   if (const Method<Scalar>* row = FindOverDoubles<Scalar>(request.method))
     return SolveBy(*row, problem, request.options);
-  return SolveWithPath(problem, request);
+  return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
 }
 
 // By the factors that the problem came in, where they are asked for by name or `auto` may take them; empty
@@ -187,34 +176,32 @@ std::optional<InexactAnswer> SolveByFactors(const SolveRequest& request) {
   return answer;
 }
 
+// `exact`: as of PreferRest.
 template <class Scalar>
-Solution SolveRounded(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
-  const ContactProblem<Scalar>& rounded = problem.numbers();
-  const auto file = [&problem] { return problem.File(); };
+Solution SolveRounded(const ContactProblem<Scalar>& rounded, const ExactProblem* exact,
+                      const SolveRequest& request) {
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
     if (auto answer = SolveByFactors(request)) {
-      PreferRestRounded(rounded, file, request, *answer);
+      PreferRest(rounded, exact, request, *answer);
       return {.answer = *std::move(answer)};
     }
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
       solution = SolveEscalating(rounded, request.options);
-      PreferRestRounded(rounded, file, request, std::get<InexactAnswer>(solution.answer));
+      PreferRest(rounded, exact, request, std::get<InexactAnswer>(solution.answer));
       return solution;
     }
   }
-  if (!IsFloatingMethod<Scalar>(request.method)) return SolveAndRound(problem, request);
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
-  Confirm(problem, request, solution);
-  const auto ran = Converted<double>(rounded, [](const Scalar& x) { return static_cast<double>(x); });
-  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer))
-    PreferRestRounded(ran, file, request, *answer);
+  const auto ran = Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); });
+  Confirm(ran, request, solution);
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, exact, request, *answer);
   return solution;
 }
 
 template <class Scalar>
 Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
-  return SolveRounded(RoundedProblem<Scalar>(problem), request);
+  return SolveRounded(Rounded<Scalar>(problem), &problem, request);
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -268,9 +255,7 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
       PreferRest(problem, request, *exact);
     } else {
-      PreferRestRounded(
-          Rounded<double>(problem), [&problem] { return problem; }, request,
-          std::get<InexactAnswer>(solution.answer));
+      PreferRest(Rounded<double>(problem), &problem, request, std::get<InexactAnswer>(solution.answer));
     }
     return solution;
   }
@@ -349,7 +334,7 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request) {
   RequireReading(ExactProblem{.dimension = problem.dimension, .contacts = {}, .A = {}, .b = {}}, request);
-  return SolveRounded(RoundedProblem<double>(problem), request);
+  return SolveRounded(problem, nullptr, request);
 }
 
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "corpus/json.h"
-#include "corpus/record/definite_block.h"
 
 namespace stiction {
 namespace {

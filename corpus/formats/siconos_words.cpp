@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f\v";
 constexpr std::size_t kMostInFile = 100'000'000;
-constexpr std::size_t kMostBytesOfRemark = 1000;
 
 std::string Quoted(std::string_view word) { return fmt::format("'{}'", Shortened(Printable(word))); }
 
@@ -37,9 +36,7 @@ void SiconosWords::Refuse(const std::string& found, const std::string& expected)
 }
 
 std::string_view SiconosWords::Next() {
-  const int line = line_;
   while (at_ < text_.size() && kSpace.find(text_[at_]) != kSpace.npos) line_ += text_[at_++] == '\n';
-  lines_passed_ = line_ - line;
   const std::size_t end = std::min(text_.find_first_of(kSpace, at_), text_.size());
   std::string_view word = text_.substr(at_, end - at_);
   at_ = end;
@@ -90,8 +87,8 @@ void SiconosWords::SkipNumbers(int count) {
   }
 }
 
-std::string SiconosWords::ExpectEnd() {
-  const char* expected = "the end of the file, a single 0 or 1, or a remark below an empty line";
+void SiconosWords::ExpectEnd() {
+  const char* expected = "the end of the file, a single 0 or 1, or text";
   int numbers = 0, line = 0;
   std::string_view first, word = Next();
   for (; ParseDouble(word); word = Next()) {
@@ -101,15 +98,10 @@ std::string SiconosWords::ExpectEnd() {
   }
   if (word == "CSparse") Refuse("another matrix", expected);
   const bool is_flag = numbers == 1 && (first == "0" || first == "1");
-  if (numbers > 0 && !is_flag) {
-    line_ = line;
-    Refuse(fmt::format("{} number{} more, from {} on", numbers, numbers == 1 ? "" : "s", Quoted(first)),
-           expected);
-  }
-  if (!word.empty() && lines_passed_ < 2) Refuse(fmt::format("text, from {} on", Quoted(word)), expected);
-  std::string remark;
-  for (; !word.empty(); word = Next()) remark += (remark.empty() ? "" : " ") + Printable(word);
-  return Shortened(remark, kMostBytesOfRemark);
+  if (numbers == 0 || is_flag) return;
+  line_ = line;
+  Refuse(fmt::format("{} number{} more, from {} on", numbers, numbers == 1 ? "" : "s", Quoted(first)),
+         expected);
 }
 
 // ---- Matrices --------------------------------------------------------------------------------

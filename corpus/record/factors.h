@@ -7,8 +7,7 @@
 //   w   a number for each velocity
 //   c   a number for each row; without it zeros
 //
-// Written as they are read, M in blocks as small as it falls into. Of a block of more than kMostWholeInverse
-// velocities inv(M) is not formed over exact numbers (definite_block.h): J inv(M) is.
+// Written as they are read, M in blocks as small as it falls into.
 
 #ifndef STICTION_CORPUS_RECORD_FACTORS_H_
 #define STICTION_CORPUS_RECORD_FACTORS_H_
@@ -24,7 +23,8 @@ namespace stiction {
 
 using ExactFactors = FactoredProblem<Rational>;
 
-inline constexpr int kMostWholeInverse = 12;
+// The inverse of a symmetric, positive definite matrix; empty if it is not definite.
+std::optional<ExactProblem::Matrix> InverseOfDefinite(const ExactProblem::Matrix& M);
 
 // The diagonal blocks of a square matrix, as small as it falls into.
 std::vector<ExactProblem::Matrix> BlocksOf(const Eigen::SparseMatrix<Rational>& M);

@@ -187,7 +187,7 @@ std::string Serialize(const Record& record) {
                                                         {"friction", key.friction},
                                                         {"rank", key.rank},
                                                         {"spread", key.spread}}));
-  return JsonText(json);
+  return json.dump();
 }
 
 // ---- Reading ---------------------------------------------------------------------------------

@@ -53,10 +53,8 @@ void CompleteDriving<Scalar, Rows>::ComputeAccelerations() {
 
 template <class Scalar, int Rows>
 Scalar CompleteDriving<Scalar, Rows>::Residual() const {
-  ErrorMeter<Scalar> meter;
-  const Scalar theta(1);  // relative to all that acts at a row: the gate looks more closely, and refines
-  return (InSpace() ? PolygonErrors(*problem_, *polygons_, f_, a_, theta)
-                    : MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_, meter, theta))
+  return (InSpace() ? PolygonErrors(*problem_, *polygons_, f_, a_)
+                    : MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_))
       .Largest();
 }
 

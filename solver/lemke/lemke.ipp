@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/polygon.h"
+#include "solver/complete/polygon_errors.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/check.h"
 #include "solver/problem/errors.h"
@@ -519,14 +519,12 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeRay(int entering) {
   }
 }
 
-// On polygons what is found is where Newton's method begins, whose answer the gate judges.
 template <class Scalar, int Rows>
 Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
-    if (polygons_ != nullptr) return Outcome::kSolved;
-    ErrorMeter<Scalar> meter;
-    const Scalar theta(1);  // relative to all that acts at a row: the gate looks more closely, and refines
-    if (MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_, meter, theta).Largest() > residual_tolerance_) {
+    const Errors<Scalar> errors = polygons_ == nullptr ? MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_)
+                                                       : PolygonErrors(*problem_, *polygons_, f_, a_);
+    if (errors.Largest() > residual_tolerance_) {
       verdict_.reason = "errors of the answer";
       return Outcome::kUndecided;
     }

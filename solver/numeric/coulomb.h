@@ -108,7 +108,6 @@ class CoulombSolver {
   using Slopes = std::vector<ContactSlope<Scalar>>;
 
   void Start(const Problem& problem);
-  Scalar theta() const { return WorkingTheta<Scalar>(options_.residual, problem_->rows()); }
   bool Reached() const;
   bool Done() const;
   void FromPolygon(int sides);
@@ -140,7 +139,7 @@ class CoulombSolver {
   Matrix regular_;
   Vector f_, a_;
   Vector best_f_, best_a_;
-  ErrorMeter<Scalar> meter_;
+  Units<Scalar> units_;
   Scalar best_ = Scalar(0);
   CoulombStatistics statistics_;
 };

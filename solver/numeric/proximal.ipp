@@ -105,7 +105,6 @@ bool ProximalNewton<Scalar>::Settle() {
     ListUnknowns();
     if (!SolveCells()) return false;
     trial_a_ = proximal_.A * trial_ + proximal_.b;
-    if (trial_.size() == 0) return true;
     // Forces come to rest: cells of contacts that carry nothing may go on changing with the rounding.
     if ((trial_ - before).cwiseAbs().maxCoeff() <= kSettled * trial_.cwiseAbs().maxCoeff()) return true;
   }

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "solver/linear/direction.ipp"
-#include "solver/problem/lenient.h"
+#include "solver/problem/errors.h"
 #include "solver/published/published_space.h"
 #include "solver/published/scan.h"
 
@@ -103,8 +103,7 @@ void PublishedInSpace<Scalar>::Finish() {
   if constexpr (!kIsExact<Scalar>) {
     const Vector forces = f(), answer = problem_->A * forces + problem_->b;
     const Scalar most = std::max(Scalar(1e-6), 10000 * std::numeric_limits<Scalar>::epsilon());
-    LenientUnits<Scalar> units;
-    if (MeasureLeniently(*problem_, FrictionLaw::kBaraff, forces, answer, units).error > most)
+    if (MeasureErrors(*problem_, FrictionLaw::kBaraff, forces, answer).Largest() > most)
       return End(Outcome::kUndecided, "rounding: the forces break the conditions");
   }
   End(Outcome::kSolved);

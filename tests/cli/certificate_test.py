@@ -37,13 +37,12 @@ class Certificates(cli.TestCase):
             with self.subTest(problem=problem["name"], claim=claim):
                 file, out = self.file("p.json", problem), self.folder / "c.json"
                 done = self.succeeds("certify", file, "-o", out, "--claim", claim, "--json").json()
-                state = "proved" if claim == certified else "disproved"
-                self.assertEqual((done["asked"], done["claim"], done["state"]), (claim, certified, state))
+                self.assertEqual(done["claim"], certified)
                 self.assertEqual(json.loads(out.read_text())["claim"], certified)
                 self.assertEqual(self.check(out, accepted=True)["claim"], certified)
                 text = self.succeeds("certify", file, "-o", out, "--claim", claim).out
-                named = "proved: " if claim == certified else f"disproved, {certified}: "
-                self.assertRegex(text, f"^{out}: {claim}: {named}[^ ].*\n$")
+                says = {"solution-exists": "forces that meet all conditions", "exists": "by the theorem"}.get(certified)
+                self.assertRegex(text, f"^{out}: {certified}: .*{says}" if says else f"^{out}: {certified}\n$")
                 self.assertIn(f"{out}: accepted: {certified}", self.succeeds("check", out).out)
 
     def test_existence_without_forces(self):
@@ -52,7 +51,7 @@ class Certificates(cli.TestCase):
         indefinite = self.file("q.json", {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]})
         for file in (outside, indefinite):
             done = self.succeeds("certify", file, "-o", out, "--claim", "exists", code=3)
-            self.assertRegex(done.out, "^exists: not decided: .*--claim psd.*--claim h")
+            self.assertRegex(done.out, "undecided: .*--claim psd.*--claim h")
         asymmetric = self.file("r.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})
         sliding = cli.ROOT / "corpus/sliding/rod-without-solution.json"
         for file, says in [(asymmetric, "A[0][1]"), (sliding, "contacts[0].kind: found sliding")]:
@@ -62,33 +61,18 @@ class Certificates(cli.TestCase):
     def test_no_claim_is_made_without_a_witness(self):
         out = self.folder / "c.json"
         for problem, claim in [(cli.SOLVED, "cycle"), (cli.SOLVED, "counterexample")]:
-            file = self.file("p.json", problem)
-            done = self.succeeds("certify", file, "-o", out, "--claim", claim, code=1)
-            self.assertRegex(done.out, f"^{claim}: disproved: under paper the published algorithm ends in solved after")
-            self.assertIn(f"stiction replay {file}", done.out)
-            done = self.succeeds("certify", file, "-o", out, "--claim", claim, "--json", code=1).json()
-            self.assertEqual((done["asked"], done["state"], done["claim"]), (claim, "disproved", None))
+            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, code=3)
+            self.assertIn("undecided", done.out)
+            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, "--json", code=3)
+            self.assertEqual(done.json()["claim"], "undecided")
             self.assertFalse(out.exists())
 
     def test_a_cycle_under_all_policies_that_show_it(self):
         out = self.folder / "c.json"
         file = self.file("p.json", cli.REFERENCE)
-        counts = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]
-        cycles, grid = counts["cycle"], sum(counts.values())
-        for claim in ("cycle", "counterexample"):
-            words = ("certify", file, "-o", out, "--claim", claim, "--policy", "*")
-            said = self.succeeds(*words, code=1).out  # it does not hold of all
-            self.assertIn(f"{claim}: disproved: {cycles:,} of {grid:,} policies loop; {grid - cycles} end in solved", said)
-            self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
-            done = self.succeeds(*words, "--json", code=1).json()
-            self.assertEqual((done["state"], done["claim"]), ("disproved", claim))
-            example = done["policies"].pop("example")
-            self.assertEqual(done["policies"], {"asked": grid, "so": cycles, "certified": cycles,
-                                                "otherwise": {"solved": grid - cycles}})
-            self.assertEqual(self.succeeds("replay", file, "--policy", example, "--json").json()["outcome"], "solved")
-        whole = cli.ROOT / "corpus/cycle-every-policy-mu-1.json"
-        said = self.succeeds("certify", whole, "-o", out, "--claim", "cycle", "--policy", "*").out
-        self.assertIn(f"cycle: proved: all {grid:,} policies loop", said)
+        self.succeeds("certify", file, "-o", out, "--claim", "cycle", "--policy", "*")
+        cycles = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]["cycle"]
+        self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
 
     def test_the_counterexample_of_the_corpus(self):
         file, problem = cli.ROOT / "corpus/certificates/counterexample.json", cli.ROOT / "corpus/cycle-every-policy-mu-1.json"

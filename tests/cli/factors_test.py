@@ -205,18 +205,6 @@ class Certified(Case):
                 self.assertEqual((written["claim"], list(written["witness"])), (claim, ["factors"]))
                 self.succeeds("check", certificate, "--problem", factored)
 
-    def test_velocities_that_no_row_touches_are_left_out(self):
-        J = [[*row[:2], 0, *row[2:], 0] for row in FACTORS["J"]]
-        M, w = [*FACTORS["M"][:2], 7, FACTORS["M"][2], "1/3"], [*FACTORS["w"][:2], 5, *FACTORS["w"][2:], 6]
-        beside = self.file("beside.json", {**STACK, "factors": {"J": J, "M": M, "w": w}})
-        certificate = self.folder / "certificate.json"
-        for claim in ("psd", "in-range", "h", "exists"):
-            with self.subTest(claim=claim):
-                self.succeeds("certify", beside, "-o", certificate, "--claim", claim)
-                written = json.loads(certificate.read_text())["witness"]["factors"]
-                self.assertEqual((written["J"]["size"], written["w"]), ([4, 4], ["0", "-981/100", "1", "-981/100"]))
-                self.succeeds("check", certificate, "--problem", beside)
-
     def test_c_outside_of_the_dual_cone_is_decided_otherwise(self):
         for c, claim, keys in ((["1", "0", "0", "0"], "h", ["factors"]), (["0", "1", "0", "0"], "h", ["y"])):
             problem = {**STACK, "factors": {**FACTORS, "c": c}}

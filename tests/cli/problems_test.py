@@ -129,58 +129,6 @@ class Problems(cli.TestCase):
             done = self.succeeds("solve", scripted, "--json", "--arithmetic", arithmetic, code=1)
             self.assertEqual(done.json()["outcome"], "no-solution")
 
-    # ---- What a verdict is about -----------------------------------------------------------------------------
-
-    def answers(self, name, *options):
-        """By method and arithmetic, what is answered, with its exit code; refusals left out."""
-        for method in ("auto", "fast", "complete", "lemke", "enumerate", "qp", "baraff"):
-            for arithmetic in (*FLOATING, ""):
-                words = ["--arithmetic", arithmetic] if arithmetic else []
-                done = cli.run("solve", PROBLEMS / f"{name}.json", "--json", "--method", method, *words, *options)
-                if done.code != 2:
-                    self.assertIn(done.code, (0, 1, 3), done.err)
-                    with self.subTest(name=name, method=method, arithmetic=arithmetic or "usual"):
-                        yield done.json()
-
-    def test_no_rounded_problem_proves_that_the_file_has_no_solution(self):
-        for name in ("enumerate-double-no-solution", "false-no-solution", "float-exactly-false"):
-            outcomes = [answer["outcome"] for answer in self.answers(name)]
-            self.assertNotIn("no-solution", outcomes, name)
-            self.assertIn("solved", outcomes, name)
-
-    def test_exact_is_said_of_the_numbers_of_the_file_alone(self):
-        for name in ("exact-answer-of-rounded", "exact-answer-of-rounded-lemke", "float-exactly-false"):
-            problem = problem_of(name)
-            for answer in self.answers(name):
-                if answer["arithmetic"] != "exact" or answer["outcome"] != "solved":
-                    continue
-                f = [Fraction(x) for x in answer["f"]]
-                self.assertEqual([Fraction(x) for x in answer["a"]], accelerations(problem, f))
-
-    def test_a_contact_that_sinks_is_not_solved_and_the_right_force_is_found(self):
-        found = [f for _, _, f, _ in self.solutions("shadow-three-contacts", ("auto", "fast", "complete", "lemke", "baraff"))]
-        self.assertGreater(len(found), 15)
-        for f in found:
-            self.assertAlmostEqual(float(f[0]), 2.292513301700395e-05, delta=1e-10)
-
-    def test_forces_that_do_no_work_are_solved_over_doubles_too(self):
-        answer = self.default("zero-work-unit-inf", "--arithmetic", "double")
-        self.assertEqual(answer["outcome"], "solved")
-        self.assertEqual([round(x, 9) for x in answer["f"]], [0.33, 0, 0.033])
-        for verb in ("explain", "survey"):
-            self.succeeds(verb, PROBLEMS / "zero-work-unit-inf.json", "--json")
-
-    def test_a_quadratic_program_asks_whether_the_file_is_convex(self):
-        for arithmetic in ("float", "double", "exact"):
-            self.assertEqual(self.default("qp-float-psd-refused", "--method", "qp", "--arithmetic", arithmetic)["outcome"],
-                             "solved")
-        answer = self.default("qp-double-space", "--method", "qp", "--arithmetic", "double")
-        self.assertEqual((answer["outcome"], [round(x, 6) for x in answer["f"]]), ("solved", [0.5, 0]))
-
-    def test_the_law_of_the_paper_is_not_answered_by_another_in_silence(self):
-        self.refuses("solve", PROBLEMS / "mujoco3328-pinch-12N.json", "--law", "baraff", "--method", "complete", "--arithmetic",
-                     "double", says=["--law baraff", "--arithmetic exact"])
-
     # ---- Not unique, not in range ----------------------------------------------------------------------------
 
     def test_of_two_solutions_the_one_at_rest_is_told(self):

@@ -46,7 +46,7 @@ class Draw {
 };
 
 double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
-  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
+  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
 }
 
 TEST_CASE("body newton: A of factors is J W J', entry by entry") {
