@@ -8,6 +8,7 @@ import fcntl
 import os
 import shutil
 import subprocess
+import sys
 import unittest
 
 import cli
@@ -110,6 +111,36 @@ class OfTests(cli.TestCase):
         shown = subprocess.run(["bash", "-c", function + 'outputs_of_tests "$@"', "bash", failed, log], text=True,
                                capture_output=True, check=True).stdout
         self.assertEqual(shown, "2/3 Testing: corpus case: a\nbroken\nTest Failed.\n")
+
+
+@unittest.skipIf(cli.SHORT, "the scripts are the same for every build")
+class Nights(cli.TestCase):
+    STEPS = ("build", "tests")
+
+    def night(self, program, **commits):
+        """What nightly.py says of a program of that commit, after steps that passed on theirs."""
+        for name, commit in commits.items():
+            (self.folder / f"{name}.tsv").write_text(f"{name}\t60\t0\t{commit}\n")
+        script = self.folder / "stiction"
+        script.write_text(f"#!/bin/sh\necho stiction 0.3.0 {program}, GNU\n")
+        script.chmod(0o755)
+        return subprocess.run([sys.executable, cli.ROOT / "tests/setup/nightly.py", self.folder, script, *self.STEPS], text=True,
+                              capture_output=True)
+
+    def test_a_step_that_there_is_not_is_refused(self):
+        done = subprocess.run([cli.ROOT / "run", "test", "--nightly", "tests", "proof"], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("found proof, expected steps among: build tests", done.stderr)
+
+    def test_it_is_written_only_where_all_steps_are_of_the_program_with_nothing_uncommitted(self):
+        for program, commits, missing in (("abcdef0", {"build": "abcdef0"}, "tests"),
+                                          ("abcdef0", {"tests": "1234567"}, "tests"),
+                                          ("abcdef0", {"tests": "abcdef0-dirty"}, "tests"),
+                                          ("abcdef0-dirty", {"tests": "abcdef0"}, "build tests")):
+            with self.subTest(program=program, commits=commits):
+                done = self.night(program, **commits)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stdout, f"(?m)not written: .* were not run: {missing}$")
 
 
 if __name__ == "__main__":

@@ -52,12 +52,13 @@ def main():
     steps = [step(folder, name) for name in names]
     rows, commit = [row for row, _, _ in steps], figures.commit(program)
     minutes = sum(seconds for _, seconds, _ in steps) / 60
-    text = table(["step", "minutes", "ended", "said"], rows) + f"\n\n{minutes:.0f} minutes in all.{mutants(folder)}"
+    text = table(["step", "minutes", "ended", "said"], rows) + f"\n\n{minutes:.0f} minutes in all."
     failed = [row[0] for row in rows if row[2] != "passed"]
-    others = [row[0] for row, _, of in steps if of is None or not commit.startswith(of)]
+    others = [row[0] for row, _, of in steps if of != commit or "dirty" in commit]
+    text += "" if "mutants" in others else mutants(folder)
     print(text)
     if others:
-        print(f"nightly: not written: not run on commit {commit}, with nothing uncommitted: {' '.join(others)}")
+        print(f"nightly: not written: the program is of {commit}; on that, with nothing uncommitted, were not run: {' '.join(others)}")
         failed += [name for name in others if name not in failed]
     else:
         figure = next(one for one in MEASUREMENTS if one.name == "nightly")
