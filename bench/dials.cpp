@@ -307,6 +307,61 @@ ExactProblem Wedge(int setting, Choices& choices) {
   return body.Problem();
 }
 
+// ---- What is small beside what is large ----------------------------------------------------------
+
+// Static contacts whose normal rows are `normals`; each has a tangent of its own, which is coupled to nothing.
+// Free accelerations of the coordinates: `pushed`, of tangents drawn up to 20.
+ExactProblem BesideEachOther(const Matrix& normals, const Vector& pushed, Choices& choices) {
+  const int contacts = static_cast<int>(normals.rows()), columns = static_cast<int>(normals.cols());
+  Bodies made(2, 1, contacts, choices);
+  made.J = Matrix::Zero(2 * contacts, columns + contacts);
+  made.W = Vector::Constant(columns + contacts, Rational(1));
+  made.y.resize(columns + contacts);
+  made.y << pushed, DrawVector(contacts, 20, choices);
+  for (int i = 0; i < contacts; ++i) {
+    made.J.row(2 * i).head(columns) = normals.row(i);
+    made.J(2 * i + 1, columns + i) = 1;
+  }
+  return made.Problem();
+}
+
+// A chain in which only 10^-k acts on the first contact, the next parts, and the last bears 10^k.
+ExactProblem Shadow(int setting, Choices& choices) {
+  const int contacts = static_cast<int>(choices.Integer(3, 5));
+  Matrix normals = Matrix::Identity(contacts, contacts);
+  for (int i = 1; i < contacts; ++i) normals(i, i - 1) = Uniform(1, 4, choices) / 10;
+  Vector pushed = DrawVector(contacts, 9, choices);
+  pushed[0] = -Ten(-setting) * Uniform(1, 9, choices);
+  pushed[1] = Uniform(1, 9, choices);
+  pushed[contacts - 1] = -Ten(setting) * Uniform(1, 9, choices);
+  return BesideEachOther(normals, pushed, choices);
+}
+
+// Two contacts that can press against each other without an end, joined by 10^-k to a third that bears 10^k.
+ExactProblem ThirdOfJam(int setting, Choices& choices) {
+  Matrix normals = Matrix::Zero(3, 2);
+  normals(0, 0) = 1;
+  normals(1, 0) = -1;
+  normals(2, 0) = -Ten(-setting) * Uniform(1, 9, choices);
+  normals(2, 1) = 1;
+  Vector pushed(2);
+  pushed << Uniform(-9, 9, choices), -Ten(setting) * Uniform(1, 9, choices);
+  return BesideEachOther(normals, pushed, choices);
+}
+
+// A contact that parts with 10^k, and whose friction would carry what the others bear.
+ExactProblem Ghost(int setting, Choices& choices) {
+  const int contacts = static_cast<int>(choices.Integer(2, 4));
+  Bodies made(2, 1, contacts, choices);
+  made.J = Matrix::Zero(2 * contacts, contacts + 1);
+  made.W = Vector::Constant(contacts + 1, Rational(1));
+  made.y = DrawVector(contacts + 1, 20, choices);
+  made.J(0, 0) = 1;  // of the first normal alone
+  made.y[0] = Ten(setting) * Uniform(1, 9, choices);
+  made.J.bottomRightCorner(2 * contacts - 1, contacts) = DrawMatrix(2 * contacts - 1, contacts, 5, choices);
+  return made.Problem();
+}
+
 // ---- Without bodies ------------------------------------------------------------------------------
 
 // J of so many columns, integers up to `most`; W = 1.
@@ -439,6 +494,9 @@ const std::vector<Dial>& AllDials() {
       {"two-masses", masses, kGate, &TwoMasses<2>},
       {"contact-units", units, kGate, &ContactUnits<2>},
       {"jam", jam, kGate, &Jam<2>},
+      {"shadow", {2, 4, 6, 8, 12}, kGate, &Shadow},
+      {"third-of-jam", {2, 4, 8, 12, 15}, kGate, &ThirdOfJam},
+      {"ghost", {2, 4, 8, 12}, kGate, &Ghost},
       {"space-tame", {0}, kGate, &Tame<3>},
       {"space-two-masses", masses, kGate, &TwoMasses<3>},
       {"space-levers", {-8, -4, 4, 8}, kGate, &Levers<3>},

@@ -9,15 +9,15 @@
 //         too. Threads take the rounds as they come: the counts do not depend on them.
 //
 // Limits are counted, and nothing runs again to confirm it. Answers called solved are judged over rationals
-// (certify/exact/judge.h) on the problem that the arithmetic was given: as it is for rationals, rounded to
+// (certify/exact/neighbour.h) on the problem that the arithmetic was given: as it is for rationals, rounded to
 // float, or to double for all others.
 //
 //   refused    a number of the problem is not one of the arithmetic's; not a run
 //   runs       all others; each ends in one of the outcomes below
 //   solved     called so
-//   wrong      a condition of the law that a solved answer names is missed by more than kSolvedResidual, times
-//              1 + 2^-30, in units of what acts there, or at all by rationals; or forces are missing; or
-//              rationals find no solution where there is one
+//   wrong      a solved answer is exact for no b, mu and A within eps and tau, by the law that it names, or
+//              breaks a condition at all by rationals; or forces are missing; or rationals find no solution
+//              where there is one
 //   undecided  called so: no answer
 //   other      ray, cycle, stall, singular, limit, no-solution
 //
@@ -43,7 +43,7 @@
 #include "bench/rungs.h"
 #include "bench/suite.h"
 #include "bench/table.h"
-#include "certify/exact/judge.h"
+#include "certify/exact/neighbour.h"
 #include "certify/request/solve_in.h"
 #include "corpus/exit_code.h"
 #include "corpus/intervals.h"
@@ -104,19 +104,20 @@ const ExactProblem* GivenTo(Arithmetic arithmetic, const RungProblem& problem) {
 }
 
 std::optional<std::string> MissOf(const ExactProblem& given, const ExactVector& f, FrictionLaw law,
-                                  double bound) {
+                                  const Gate& gate) {
   if (f.size() != given.rows()) return "there are no forces";
-  return FindMiss(given, f, law, Rational(bound) * (1 + Rational(1, 1 << 30)));
+  const double slack = 1 + 1e-9;  // roots round
+  return FindMiss(given, f, law, Gate{gate.eps * slack, gate.tau * slack});
 }
 
 // What an answer called solved misses; empty if nothing. An exact answer promises to miss nothing.
 std::optional<std::string> MissOf(const ExactProblem& given, Arithmetic arithmetic, const Solution& solution) {
   if (const auto* exact = std::get_if<ExactAnswer>(&solution.answer))
-    return MissOf(given, exact->f, exact->law, 0);
+    return MissOf(given, exact->f, exact->law, Gate{});
   const auto& answer = std::get<InexactAnswer>(solution.answer);
   if (!answer.f.allFinite()) return "a force is not finite";
-  const double bound = arithmetic == Arithmetic::kFloat ? kSolvedResidual<float> : kSolvedResidual<double>;
-  return MissOf(given, answer.f.unaryExpr([](double x) { return Rational(x); }), answer.law, bound);
+  const Gate gate = arithmetic == Arithmetic::kFloat ? GateOf<float>() : GateOf<double>();
+  return MissOf(given, answer.f.unaryExpr([](double x) { return Rational(x); }), answer.law, gate);
 }
 
 SolveRequest RequestOf(const GateCell& cell) {

@@ -148,11 +148,13 @@ Answer<double> SolveRegularized(const ContactProblem<double>& problem, const std
   return answer;
 }
 
-// One step: the equations of the cells where the answer ended, for the residual in long double.
+// One step: the equations of the cells where the answer ended, for the residual with twice the digits.
 Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::string& method) {
   Answer<double> answer = Solve(problem, method);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return answer;
-  const LongVector a = Recompute(problem, answer.f.cast<long double>());
+  GateMeter<double> meter;
+  meter.Accelerate(problem, answer.f, Gate{0, 0});
+  const Eigen::VectorXd& a = meter.a();
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts);
   // Forces that press and rest are unknown, as their numbers tell.
@@ -168,7 +170,7 @@ Answer<double> SolveRefined(const ContactProblem<double>& problem, const std::st
     sets[row + 1] = slack > scale.force ? IndexSet::kSticking : limit;
   }
   ContactProblem<double> rest = problem;
-  rest.b = a.cast<double>();
+  rest.b = a;
   using System = DirectionSystem<double, Eigen::Dynamic>;
   System system;
   system.Start(rest);
@@ -266,7 +268,8 @@ struct Tally {
     bool is_silent = told.outcome == Outcome::kNoSolution && has_solution;
     if (told.outcome == Outcome::kSolved) {
       ++solved;
-      residuals.push_back(ExactResidual(problem.Given(row.arithmetic), *told.f));
+      const Gate gate = row.arithmetic == Arithmetic::kFloat ? GateOf<float>() : GateOf<double>();
+      residuals.push_back(ExactResidual(problem.Given(row.arithmetic), *told.f, gate));
       is_silent = !(residuals.back() <= told.bound * kMargin);
     }
     silent += is_silent;
@@ -322,7 +325,7 @@ Json Measure(const Source& source, const std::vector<LadderRow>& rows, std::int6
 
 std::string CsvText(const Json& cell) {
   if (cell.is_null()) return "";
-  return cell.is_string() ? cell.get<std::string>() : cell.dump();
+  return cell.is_string() ? cell.get<std::string>() : JsonText(cell);
 }
 
 // Arrays become columns: name_low, name_median, name_high of three, name_low, name_high of two.

@@ -43,8 +43,10 @@ Outcome RungProblem::PublishedEnd(Arithmetic arithmetic) const {
   return *end;
 }
 
-double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f) {
-  return ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, Accelerations(problem, f)).Largest());
+double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f, const Gate& gate) {
+  ErrorMeter<Rational> meter;
+  const auto a = Accelerations(problem, f);
+  return ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, meter, Rational(gate.theta())).Largest());
 }
 
 }  // namespace stiction

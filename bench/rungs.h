@@ -9,6 +9,7 @@
 
 #include "corpus/exact_problem.h"
 #include "solver/problem/answer.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 
@@ -37,8 +38,9 @@ class RungProblem {
   mutable std::array<std::optional<Outcome>, 3> ends_;
 };
 
-// The largest error (solver/problem/errors.h), over rationals, rounded.
-double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f);
+// The largest error (solver/problem/errors.h) by a gate's theta, over rationals, rounded.
+double ExactResidual(const ExactProblem& problem, const ExactProblem::Vector& f,
+                     const Gate& gate = GateOf<double>());
 
 }  // namespace stiction
 

@@ -34,7 +34,7 @@
 #include "search/generators/integer_problem.h"
 #include "search/lanes/batch.h"
 #include "search/units/unit.h"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
@@ -233,6 +233,7 @@ constexpr int kRows = 4;
 OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, double& steps) {
   ContactProblem<Counted, kRows> problem;
   PublishedAlgorithm<Counted, kRows> algorithm;
+  LenientUnits<Counted> units;
   Counted::counts() = {};
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(ProblemSeed(o.seed, 1, static_cast<std::uint64_t>(index)));
@@ -244,7 +245,7 @@ OperationCounts CountOperations(const BenchOptions& o, std::int64_t problems, do
     for (int i = 0; i < kRows; ++i) {
       for (int j = 0; j < kRows; ++j) a[i] += problem.A(i, j) * f[j];
     }
-    MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
+    MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units);
   }
   return Counted::counts();
 }

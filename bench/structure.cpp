@@ -118,7 +118,7 @@ Json ChannelJson(int discs, const Building& building, Choices& choices) {
 // take(model) of the scene at rest, at this instant, which is one island.
 template <class Kind, class Take>
 auto FromModel(const Json& json, Take take) {
-  const auto scene = Round(ParseScene<Kind>(json.dump(), "structured").scene);
+  const auto scene = Round(ParseScene<Kind>(JsonText(json), "structured").scene);
   const auto model = Assemble(scene, FindContacts(scene));
   STICTION_CHECK(model.islands.size() == 1, "blocks that stand on each other are one island");
   return take(model);

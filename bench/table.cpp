@@ -15,7 +15,7 @@ namespace {
 std::string CellText(const Json& cell) {
   if (cell.is_null()) return "";
   if (cell.is_string()) return cell.get<std::string>();
-  if (cell.is_number_integer()) return cell.dump();
+  if (cell.is_number_integer()) return JsonText(cell);
   if (cell.is_number()) {
     const double x = cell.get<double>();
     return x < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
@@ -23,7 +23,7 @@ std::string CellText(const Json& cell) {
   if (cell.is_object()) {
     std::string text;
     for (const auto& [key, value] : cell.items())
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value.dump());
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, JsonText(value));
     return text;
   }
   return fmt::format("{} ({} - {})", CellText(cell[1]), CellText(cell[0]), CellText(cell[2]));

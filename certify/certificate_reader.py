@@ -5,9 +5,9 @@ What check_certificate.py and check_runs.py have in common: JSON, exact numbers,
 and the command line. All numbers are fractions.Fraction. Trusted: Python, its json, fractions and hashlib
 modules, and this file, which was written from certify/certificates.md and shares no code or tables with the C++.
 
-A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number, MOST_DIGITS
-of all numbers and MOST_ROWS keep reading it from taking memory or time; MOST_OPERATIONS and MOST_WORK keep checking
-it from that (certify/certificates.md, What a check may cost).
+A certificate comes from anywhere. MOST_BYTES of a file, MOST_DEPTH levels, MOST_CHARACTERS of a number and MOST_ROWS
+bound what is read; Budget bounds what is done with it, by the length of what was read, before it is done
+(certify/certificates.md, What a check may cost).
 """
 
 import argparse
@@ -20,16 +20,16 @@ import sys
 import textwrap
 from collections import namedtuple
 from fractions import Fraction
+from functools import lru_cache
 from math import isinf, isqrt, lcm
 from stat import S_ISREG
 
 MOST_BYTES = 1 << 25
 MOST_DEPTH = 100
 MOST_CHARACTERS = 40000
-MOST_DIGITS = 20_000_000
+MOST_EXPONENT = 10000
 MOST_ROWS = 3000
-MOST_OPERATIONS = 2_000_000
-MOST_WORK = 10**13
+REMEMBERED = 1 << 16  # texts of numbers, which come again and again
 sys.set_int_max_str_digits(0)  # of what is computed
 ZERO = Fraction(0)  # the one that stands where a sparse matrix has no entry: `is` is cheaper than a comparison
 
@@ -73,10 +73,18 @@ def refuse_constant(text):
     raise ValueError(f"{text} is no JSON")
 
 
+def inside(values):
+    """What lies in the arrays and objects among these values."""
+    return [item for value in values if type(value) in (list, dict)
+            for item in (value if type(value) is list else value.values())]
+
+
 def depth(value):
     """Arrays and objects within each other."""
-    inner = value.values() if type(value) is dict else value if type(value) is list else None
-    return 0 if inner is None else 1 + max(map(depth, inner), default=0)
+    levels, values = 0, [value]
+    while any(type(value) in (list, dict) for value in values):
+        levels, values = levels + 1, inside(values)
+    return levels
 
 
 def text_of(path):
@@ -111,11 +119,16 @@ def fields(value, place, *keys, optional=()):
     return value
 
 
-def items(value, place, length=None):
-    """(place, item) for each item of the list `value`."""
+def listed(value, place, length=None):
+    """The list `value`."""
     need(type(value) is list, place, value, "a list")
     need(length in (None, len(value)), place, len(value), f"{length} items")
-    return [(f"{place}[{i}]", item) for i, item in enumerate(value)]
+    return value
+
+
+def items(value, place, length=None):
+    """(place, item) for each item of the list `value`, one after the other."""
+    return ((f"{place}[{i}]", item) for i, item in enumerate(listed(value, place, length)))
 
 
 def one_of(value, place, allowed):
@@ -135,6 +148,15 @@ RATIO = re.compile(r"-?[0-9]+/([0-9]+)")
 DECIMAL = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE]([+-]?[0-9]+))?")
 
 
+def exponent_of(decimal):
+    """Of what DECIMAL found; None beyond MOST_EXPONENT, however it is written."""
+    sign, digits = re.fullmatch("([+-]?)0*([0-9]*)", decimal[1] or "").groups()
+    if len(digits) > len(str(MOST_EXPONENT)) or int(digits or 0) > MOST_EXPONENT:
+        return None
+    return int(sign + (digits or "0"))
+
+
+@lru_cache(maxsize=REMEMBERED)
 def digits_of(text):
     """Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no number, or
     one that `exact` refuses."""
@@ -143,33 +165,35 @@ def digits_of(text):
     if RATIO.fullmatch(text):
         return sum(len(part.lstrip("-0")) for part in text.split("/"))
     decimal = DECIMAL.fullmatch(text)
-    exponent = int(decimal[1] or 0) if decimal else 0
-    if not decimal or abs(exponent) > 10000:
+    exponent = exponent_of(decimal) if decimal else None
+    if exponent is None:
         return 0
     whole, _, fraction = re.split("[eE]", text)[0].partition(".")
     digits = len((whole.lstrip("-") + fraction).lstrip("0"))
     return digits and digits + abs(exponent - len(fraction))
 
 
-def all_digits(value):
-    """Of all texts in a value; it has few levels."""
-    if type(value) is str:
-        return digits_of(value)
-    inner = value.values() if type(value) is dict else value if type(value) is list else ()
-    return sum(map(all_digits, inner))
+@lru_cache(maxsize=REMEMBERED)
+def value_of(text):
+    """The rational that an exact text stands for; otherwise a text: what is expected instead."""
+    if len(text) > MOST_CHARACTERS:
+        return f"at most {MOST_CHARACTERS} characters"
+    if ratio := RATIO.fullmatch(text):
+        return Fraction(text) if ratio[1].strip("0") else "a denominator that is not zero"
+    decimal = DECIMAL.fullmatch(text)
+    if not decimal:
+        return "an exact number such as -3/2, 7 or 1.5e-3"
+    if exponent_of(decimal) is None:
+        return f"an exponent within {MOST_EXPONENT}"
+    return Fraction(text)
 
 
 def exact(value, place):
     """The rational that an exact string stands for."""
-    need(type(value) is str, place, value, "an exact number as a string")
-    need(len(value) <= MOST_CHARACTERS, place, value, f"at most {MOST_CHARACTERS} characters")
-    if ratio := RATIO.fullmatch(value):
-        need(int(ratio[1]) != 0, place, value, "a denominator that is not zero")
-    else:
-        decimal = DECIMAL.fullmatch(value)
-        need(decimal, place, value, "an exact number such as -3/2, 7 or 1.5e-3")
-        need(abs(int(decimal[1] or 0)) <= 10000, place, value, "an exponent within 10000")
-    return Fraction(value)
+    number = value_of(value) if type(value) is str else "an exact number as a string"
+    if type(number) is not Fraction:
+        need(False, place, value, number)
+    return number
 
 
 def exact_or_double(value, place):
@@ -180,11 +204,32 @@ def exact_or_double(value, place):
 
 
 def vector(value, place, length, number=exact):
-    return [number(item, at) for at, item in items(value, place, length)]
+    try:
+        return [number(item, place) for item in listed(value, place, length)]
+    except Rejected:
+        for at, item in items(value, place, length):
+            number(item, at)  # which one it is
+        raise
 
 
 def rows(value, place, size, number=exact):
     return [vector(row, at, size, number) for at, row in items(value, place, size)]
+
+
+def read_entries(value, place, rows, columns, number=exact):
+    """{(row, column): number} of a list of entries [row, column, number]."""
+    entries = {}
+    for k, item in enumerate(listed(value, place)):
+        fits = type(item) is list and len(item) == 3 and type(item[0]) is int is type(item[1])
+        if not (fits and 0 <= item[0] < rows and 0 <= item[1] < columns):
+            at = f"{place}[{k}]"
+            listed(item, at, 3)
+            integer(item[0], at + "[0]", 0, rows)
+            integer(item[1], at + "[1]", 0, columns)
+        if (item[0], item[1]) in entries:
+            need(False, f"{place}[{k}]", item[:2], "each entry once")
+        entries[item[0], item[1]] = number(item[2], f"{place}[{k}][2]")
+    return entries
 
 
 def matrix(value, place, size, number):
@@ -195,12 +240,7 @@ def matrix(value, place, size, number):
     need(type(value) is dict, place, value, "rows, or an object of size and entries")
     fields(value, place, "size", "entries")
     integer(value["size"], place + ".size", size, size + 1)
-    entries = {}
-    for at, item in items(value["entries"], place + ".entries"):
-        items(item, at, 3)
-        i, j = (integer(item[k], f"{at}[{k}]", 0, size) for k in (0, 1))
-        need((i, j) not in entries, at, (i, j), "each entry once")
-        entries[i, j] = number(item[2], at + "[2]")
+    entries = read_entries(value["entries"], place + ".entries", size, size, number)
     A = [[ZERO] * size for _ in range(size)]
     for (i, j), x in entries.items():
         need(i >= j or (j, i) in entries, place + ".entries", (i, j), f"{[j, i]} as well")
@@ -240,14 +280,25 @@ def groups_of(entries):
     return list(groups.values())
 
 
+def over(numbers):
+    """Integers, and the denominator that they have in common."""
+    denominator = lcm(*{x.denominator for x in numbers})
+    if denominator == 1:
+        return [x.numerator for x in numbers], 1
+    return [x.numerator * (denominator // x.denominator) for x in numbers], denominator
+
+
 def long_times(A, x):
-    """A x, A square: the numbers of x in every group of rows over their common denominator."""
-    entries, product = entries_of(A), [Fraction(0)] * len(x)
+    """A x, A square: the numbers of x in every group of rows, and those of every row, over their common denominator."""
+    entries, product = entries_of(A), [ZERO] * len(x)
     for group in groups_of(entries):
-        denominator = lcm(*(x[j].denominator for j in group))
-        integers = {j: x[j].numerator * (denominator // x[j].denominator) for j in group if x[j]}
+        integers, denominator = over([x[j] for j in group])
+        integers = dict(zip(group, integers))
         for i in group:
-            product[i] = sum((y * integers[j] for j, y in entries[i] if j in integers), Fraction(0)) / denominator
+            row, below = over([y for _, y in entries[i]])
+            total = sum(y * integers[j] for y, (j, _) in zip(row, entries[i]))
+            if total:
+                product[i] = Fraction(total, below * denominator)
     return product
 
 
@@ -281,11 +332,13 @@ def read_problem(value, place="$.problem", number=exact, optional=()):
     one_of(value["format"], place + ".format", ("stiction-problem",))
     integer(value["version"], place + ".version", 1, 2)
     dimension = integer(value["dimension"], place + ".dimension", 2, 4)
-    listed = items(value["contacts"], place + ".contacts")
-    need(len(listed) <= MOST_ROWS, place + ".contacts", len(listed), f"at most {MOST_ROWS}")
-    contacts = [read_contact(item, at, dimension, number) for at, item in listed]
+    count = len(listed(value["contacts"], place + ".contacts"))
+    need(count <= MOST_ROWS, place + ".contacts", count, f"at most {MOST_ROWS}")
+    contacts = [read_contact(item, at, dimension, number) for at, item in items(value["contacts"], place + ".contacts")]
     size = sum(dimension if "mu" in KEYS[contact.kind] else 1 for contact in contacts)
     need(size <= MOST_ROWS, place + ".contacts", f"contacts of {size} rows", f"at most {MOST_ROWS}")
+    if number is exact:  # a certificate's: a problem file is the reader's own
+        Budget.require_cells(size, place + ".contacts")
     return Problem(dimension, contacts, matrix(value["A"], place + ".A", size, number),
                    vector(value["b"], place + ".b", size, number))
 
@@ -299,7 +352,15 @@ def digest(problem):
     lines = ["stiction-problem 1", f"dimension {problem.dimension}"]
     lines += [" ".join([kind, *map(str, [] if mu is None else [mu]), *map(str, slip)])
               for kind, mu, slip in problem.contacts]
-    lines += [" ".join([letter, *("0" if x is ZERO else str(x) for x in row)])
+    texts = {}  # by number, of which many are one object
+
+    def text(x):
+        known = texts.get(id(x)) or str(x)
+        if len(texts) < REMEMBERED:
+            texts[id(x)] = known
+        return known
+
+    lines += [" ".join([letter, *map(text, row)])
               for letter, row in [*(("A", row) for row in problem.A), ("b", problem.b)]]
     return "sha256:" + hashlib.sha256("".join(line + "\n" for line in lines).encode("ascii")).hexdigest()
 
@@ -317,9 +378,57 @@ def planar_contacts(problem):
 
 # --- What a check will cost, bounded before it begins ---------------------------
 
+class Budget:
+    """What a certificate may cost, by the length of the one that is being checked.
+
+    The unit of work is a millionth of the time that one operation on short numbers takes."""
+
+    FREE_WORK, WORK_PER_CHARACTER = 6 * 10**12, 250_000
+    FREE_DIGITS, DIGITS_PER_CHARACTER = 1_000_000, 2
+    FREE_CELLS, CELLS_PER_CHARACTER = 2_000_000, 5
+    SHORT = 10**6  # the square of the bits with which an operation takes twice as long
+    length = 0
+
+    @classmethod
+    def of(cls, *values):
+        """Sets the length: characters of all texts and keys, and two for every value; refuses too many digits."""
+        length = digits = 0
+        while values:
+            for value in values:
+                if type(value) is str:
+                    length += len(value)
+                    digits += digits_of(value)
+                elif type(value) is dict:
+                    length += sum(map(len, value))
+            length += 2 * len(values)
+            values = inside(values)
+        cls.length = length
+        most = cls.FREE_DIGITS + cls.DIGITS_PER_CHARACTER * length
+        need(digits <= most, "$", f"numbers of {digits} digits", f"{LIMIT} of {most} in all, by its length of {length}")
+
+    @classmethod
+    def require_cells(cls, size, place):
+        """Of a matrix of so many rows."""
+        most = cls.FREE_CELLS + cls.CELLS_PER_CHARACTER * cls.length
+        need(size**2 <= most, place, f"{size} rows, a matrix of {size**2} entries",
+             f"{LIMIT} of {most}, by its length of {cls.length}")
+
+    @classmethod
+    def most_work(cls):
+        return cls.FREE_WORK + cls.WORK_PER_CHARACTER * cls.length
+
+    @classmethod
+    def require_work(cls, work):
+        need(work <= cls.most_work(), "$", f"a claim of work {work}",
+             f"{LIMIT} of {cls.most_work()}, by its length of {cls.length}")
+
+
+LIMIT = "no more than the limit"  # begins the reason of all that is refused for what it costs
+
+
 def require_cheap_product(problem, x, squared=False):
-    """Of A x or A'x, added up over the groups of rows that A couples: so many rows of long numbers, and entries by which
-    long ones are multiplied. `squared`: all rows are added up, and x counts twice, as for x'Ax."""
+    """Of A x or A'x, added up over the groups of rows that A couples: so many rows of long numbers, and entries by
+    which long ones are multiplied. `squared`: all rows are added up, and x counts twice, as for x'Ax."""
     entries, columns = entries_of(problem.A), [[] for _ in x]
     for i, row in enumerate(entries):
         for j, y in row:
@@ -330,23 +439,18 @@ def require_cheap_product(problem, x, squared=False):
         longest = max((cost.bits(numbers) for i in group
                        for numbers in ([problem.b[i], *(y for _, y in entries[i])], columns[i])), default=0)
         bits = cost.add(longest).numbers([x[i] for i in group], 1 + squared).total
-        work += len(group) * bits**2 + sum(len(entries[i]) for i in group) * longest * bits // 8
-        need(work <= MOST_WORK, "$", f"a product of work {work}", f"at most {MOST_WORK}")
+        work += len(group) * (Budget.SHORT + bits**2) + sum(len(entries[i]) for i in group) * longest * bits // 8
+        Budget.require_work(work)
 
 
 def product_operations(n, times=1):
     """Of A x, n rows."""
-    return times * (n**2 + 8 * n) // 8
+    return times * (n**2 + 64 * n + 320) // 16
 
 
 def elimination_operations(n, times=1):
     """Of A."""
-    return times * (n**3 + 10 * n**2) // 10
-
-
-def reduced_operations(n, times=1):
-    """Of a reduced matrix: half as large."""
-    return times * (n**3 + 240 * n) // 240
+    return times * (n**3 + 60 * n**2) // 24
 
 
 class Cost:
@@ -354,15 +458,14 @@ class Cost:
     together, each over its common denominator."""
 
     def __init__(self, operations):
-        need(operations <= MOST_OPERATIONS, "$", f"a claim that takes {operations} operations",
-             f"at most {MOST_OPERATIONS}")
-        self.most, self.total = isqrt(MOST_WORK // max(operations, 1)), 0
+        Budget.require_work(operations * Budget.SHORT)
+        self.most, self.total = isqrt(Budget.most_work() // max(operations, 1) - Budget.SHORT), 0
 
     def bits(self, numbers):
         """Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit."""
         denominator, numerator = 1, 1
-        for x in numbers:
-            denominator = lcm(denominator, x.denominator)
+        for below in {x.denominator for x in numbers}:
+            denominator = lcm(denominator, below)
             if denominator.bit_length() > self.most:
                 return self.most + 1
         for x in numbers:
@@ -372,7 +475,7 @@ class Cost:
     def add(self, bits):
         self.total += bits
         need(self.total <= self.most, "$", f"numbers that grow beyond {self.most} bits",
-             "fewer, for as many operations as the claim takes")
+             f"{LIMIT}: fewer bits, for as many operations as the claim takes")
         return self
 
     def numbers(self, numbers, times=1):
@@ -395,6 +498,35 @@ class Cost:
         return self
 
 
+# --- Elimination ---------------------------------------------------------------------
+#
+# Without fractions (E. H. Bareiss, Math. Comp. 22, 1968): rows over their common denominators are integers, and what is
+# left after k pivots is, times the k-th leading minor, integer too.
+
+def integer_rows(M):
+    """Rows of integers, and the denominator of each."""
+    found = list(map(over, M))
+    return [row for row, _ in found], [denominator for _, denominator in found]
+
+
+def take_pivot(rows, minor):
+    """Of what is left, times `minor`: the same with its first row and column taken away, which is times their pivot."""
+    pivot, *top = rows[0]
+    rest = []
+    for first, *row in rows[1:]:
+        if first:
+            row = [(pivot * x - first * y) // minor for x, y in zip(row, top)]
+        elif pivot != minor:
+            row = [pivot * x // minor for x in row]
+        rest.append(row)
+    return rest, pivot
+
+
+def drop_pivot(rows):
+    """Without its first row and column, where these are zero."""
+    return [row[1:] for row in rows[1:]]
+
+
 # --- The command line --------------------------------------------------------------
 
 def check(certificate, claims, expected=None):
@@ -406,8 +538,7 @@ def check(certificate, claims, expected=None):
     one_of(certificate["format"], "$.format", ("stiction-certificate",))
     integer(certificate["version"], "$.version", 1, 2)
     claim = one_of(certificate["claim"], "$.claim", claims)
-    digits = all_digits(certificate["problem"]) + all_digits(certificate["witness"])
-    need(digits <= MOST_DIGITS, "$", f"numbers of {digits} digits", f"at most {MOST_DIGITS} in all")
+    Budget.of(certificate["problem"], certificate["witness"])
     problem = read_problem(certificate["problem"])
     found = digest(problem)
     need(expected in (None, found), "$.problem", found, f"{expected}, the problem that was asked for")

@@ -21,13 +21,14 @@ code or tables with the C++.
 import sys
 from fractions import Fraction
 from itertools import product
-from math import lcm, prod
+from operator import mul
+from math import prod
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (Cost, brief, dot, elimination_operations, exact, fields, integer, items, long_times, main,
-                                need, one_of, planar_contacts, product_operations, reduced_operations,
-                                require_cheap_product, rows, times, vector)
+from certificate_reader import (ZERO, Cost, brief, dot, drop_pivot, elimination_operations, exact, fields, integer,
+                                integer_rows, items, listed, long_times, main, need, one_of, over, planar_contacts,
+                                product_operations, read_entries, require_cheap_product, rows, take_pivot, vector)
 from check_runs import CYCLE, ENDLESS, RAY, check_runs
 
 # --- A and b: each check returns the facts to print ---------------------------------
@@ -61,48 +62,61 @@ def factored(problem, witness):
     """D, once A is symmetric and A = L diag(D) L' with D >= 0, so x'Ax = sum of D_i (L'x)_i^2 >= 0. One column of L
     after the other is taken away, so that no number grows beyond the minors of A, whatever L and D are."""
     n = len(problem.b)
+    Cost(elimination_operations(n)).all_rows(problem)
     L, D = rows(witness["L"], "$.witness.L", n), vector(witness["D"], "$.witness.D", n)
     check_symmetric(problem, {})
     for i in range(n):
         need(D[i] >= 0, f"$.witness.D[{i}]", D[i], "D >= 0")
         equal(L[i][i:], [1] + [0] * (n - i - 1), f"$.witness.L[{i}][{i}:]",
               "a lower triangle with unit diagonal")
-    Cost(elimination_operations(n)).all_rows(problem)
-    rest = [list(row) for row in problem.A]
+    rest, scales = integer_rows(problem.A)
+    minor = 1
     for k in range(n):
-        equal([row[k] for row in rest[k:]], [row[k] * D[k] for row in L[k:]],
-              f"$.witness (A - L diag(D) L')[{k}:][{k}]", "the column of L, times D")
-        for i in range(k + 1, n):
-            if L[i][k] and D[k]:
-                rest[i] = [x - L[i][k] * y for x, y in zip(rest[i], rest[k])]
+        for i, row in enumerate(rest, k):
+            if row[0] or L[i][k] and D[k]:
+                left = Fraction(row[0], minor * scales[i])
+                need(left == L[i][k] * D[k], f"$.witness (A - L diag(D) L')[{i}][{k}]", left,
+                     L[i][k] * D[k], " (the column of L, times D)")
+        rest, minor = take_pivot(rest, minor) if D[k] else (drop_pivot(rest), minor)
     return D
 
 
 # --- Factors of the problem (certify/certificates.md, Factors) -----------------------------
 
-def read_factors(value, n):
-    """J as {(row, velocity): number}, the blocks of M, w and c."""
+BLOCK, PAIR, VELOCITY, ENTRY = 20, 4, 15, 6  # operations of a block of M, two rows of J in it, a velocity, an entry of J
+
+
+def require_few_velocities(value, n):
+    """How many there are, before any number is read: a row touches each block of M, with an entry of J of its own."""
     place = "$.witness.factors"
     fields(value, place, "J", "M", "w", optional=("c",))
     fields(value["J"], place + ".J", "size", "entries")
-    size = items(value["J"]["size"], place + ".J.size", 2)
-    integer(size[0][1], size[0][0], n, n + 1)
-    velocities = integer(size[1][1], size[1][0], 0, 2**31 - 1)
-    J = {}
-    for at, entry in items(value["J"]["entries"], place + ".J.entries"):
-        items(entry, at, 3)
-        i, j = (integer(entry[k], f"{at}[{k}]", 0, most) for k, most in ((0, n), (1, velocities)))
-        need((i, j) not in J, at, (i, j), "each entry once")
-        J[i, j] = exact(entry[2], at + "[2]")
-    M = []
+    size = listed(value["J"]["size"], place + ".J.size", 2)
+    integer(size[0], place + ".J.size[0]", n, n + 1)
+    velocities = integer(size[1], place + ".J.size[1]", 0, 2**31 - 1)
+    entries = len(listed(value["J"]["entries"], place + ".J.entries"))
+    blocks = len(listed(value["M"], place + ".M"))
+    need(blocks <= entries, place + ".M", f"{blocks} blocks", f"at most {entries}, the entries of J")
+    Cost(product_operations(n) + VELOCITY * velocities + ENTRY * entries)
+    return velocities
+
+
+def read_factors(value, n):
+    """J as {(row, velocity): number}, the blocks of M, w and c."""
+    place = "$.witness.factors"
+    velocities = require_few_velocities(value, n)
+    J = {at: x for at, x in read_entries(value["J"]["entries"], place + ".J.entries", n, velocities).items() if x}
+    M, first, touched = [], 0, {j for _, j in J}
     for at, block in items(value["M"], place + ".M"):
         M.append(rows(block, at, len(block)) if type(block) is list else [[exact(block, at)]])
         need(M[-1], at, block, "a number, or rows of numbers")
         need(M[-1] == [list(column) for column in zip(*M[-1])], at, block, "a symmetric block")
+        need(not touched.isdisjoint(range(first, first + len(M[-1]))), at, block, "a block that a row of J touches")
+        first += len(M[-1])
     need(sum(map(len, M)) == velocities, place + ".M", sum(map(len, M)), f"blocks of {velocities} velocities")
     w = vector(value["w"], place + ".w", velocities)
-    c = vector(value["c"], place + ".c", n) if "c" in value else [Fraction(0)] * n
-    return {at: x for at, x in J.items() if x}, M, w, c
+    c = vector(value["c"], place + ".c", n) if "c" in value else [ZERO] * n
+    return J, M, w, c
 
 
 def solved(M, columns, place):
@@ -117,38 +131,55 @@ def solved(M, columns, place):
     return list(zip(*(row[len(M):] for row in system)))
 
 
-def factors(problem, witness):
-    """c, once A = J inv(M) J' and b = J w + c, every block of M symmetric and definite."""
-    n = len(problem.b)
-    J, M, w, c = read_factors(witness["factors"], n)
+def by_blocks(J, M):
+    """Of every block of M the rows of J that have entries in it, and these."""
     block_of = [k for k, block in enumerate(M) for _ in block]
     first = [0]
     for block in M:
         first.append(first[-1] + len(block))
-    touched = [{} for _ in M]  # of every block the rows of J that have entries in it, and these
+    touched = [{} for _ in M]
     for (i, j), x in sorted(J.items()):
         k = block_of[j]
-        touched[k].setdefault(i, [Fraction(0)] * len(M[k]))[j - first[k]] = x
-    cost = Cost(product_operations(n) + sum(len(block) * (len(block) + len(of)) ** 2 for block, of in zip(M, touched)))
+        touched[k].setdefault(i, [ZERO] * len(M[k]))[j - first[k]] = x
+    return touched
+
+
+def require_cheap_factors(problem, J, M, w, c):
+    """The blocks with the rows of J in them, once the work is not too dear."""
+    n = len(problem.b)
+    sizes, rows_of, by_row = list(map(len, M)), [set() for _ in M], [[] for _ in range(n)]
+    block_of = [k for k, size in enumerate(sizes) for _ in range(size)]
+    for (i, j), x in J.items():
+        rows_of[block_of[j]].add(i)
+        by_row[i].append(x)
+    of_blocks = sum(BLOCK + 2 * s * (s + len(of))**2 + PAIR * len(of)**2 for s, of in zip(sizes, rows_of))
+    cost = Cost(product_operations(n) + VELOCITY * len(w) + ENTRY * len(J) + of_blocks)
     cost.longest_row(problem).numbers(w).numbers(c)
     bits = [0] * n
-    for block, of in zip(M, touched):
+    for block, of in zip(M, rows_of):
         own = sum(map(cost.bits, block))
         for i in of:
             bits[i] += own
-    by_row = [[] for _ in range(n)]
-    for (i, _), x in J.items():
-        by_row[i].append(x)
     cost.add(2 * max(map(cost.bits, by_row), default=0)).add(max(bits, default=0))
+
+
+def factors(problem, witness):
+    """c, once A = J inv(M) J' and b = J w + c, every block of M symmetric and definite."""
+    n = len(problem.b)
+    J, M, w, c = read_factors(witness["factors"], n)
+    require_cheap_factors(problem, J, M, w, c)
     A = [{} for _ in range(n)]
-    for k, (block, of) in enumerate(zip(M, touched)):
-        answers = solved(block, list(of.values()) or [[Fraction(0)] * len(block)], f"$.witness.factors.M[{k}]")
+    for k, (block, of) in enumerate(zip(M, by_blocks(J, M))):
+        answers = solved(block, list(of.values()), f"$.witness.factors.M[{k}]")
         for (i, row), answer in zip(of.items(), answers):
             for j, other in of.items():
-                A[i][j] = A[i].get(j, Fraction(0)) + dot(other, answer)
+                if j <= i:
+                    A[i][j] = A[i].get(j, ZERO) + dot(other, answer)
     for i in range(n):
         for j in range(n):
-            need(A[i].get(j, 0) == problem.A[i][j], f"$.problem.A[{i}][{j}]", problem.A[i][j], "J inv(M) J'")
+            product = A[max(i, j)].get(min(i, j), ZERO)
+            if product is not problem.A[i][j]:
+                need(product == problem.A[i][j], f"$.problem.A[{i}][{j}]", problem.A[i][j], "J inv(M) J'")
     b = list(c)
     for (i, j), x in J.items():
         b[i] += x * w[j]
@@ -396,9 +427,11 @@ def contacts_of(problem):
         row = span.stop
 
 
-def check_refutation(problem, prefix, y, place):
-    """y'b < 0, and y'(a - A f) >= 0 in every word that begins with the prefix."""
-    yb, g = dot(y, problem.b), times(zip(*problem.A), y)
+def check_refutation(problem, columns, prefix, y, place):
+    """y'b < 0, and y'(a - A f) >= 0 in every word that begins with the prefix; `columns`: those of A."""
+    whole, below = over(y)
+    yb = dot(y, problem.b)
+    g = [Fraction(sum(map(mul, whole, column)), below * scale) for column, scale in columns]
     need(yb < 0, place, yb, "y'b < 0")
     holds = never_negative if problem.dimension == 2 else never_negative_in_space
     for i, contact, span in contacts_of(problem):
@@ -410,29 +443,29 @@ def check_refutation(problem, prefix, y, place):
 
 def check_no_solution(problem, witness):
     choices = [modes_of(contact, problem.dimension) for contact in problem.contacts]
+    operations = product_operations(len(problem.b), len(listed(witness["prefixes"], "$.witness.prefixes")))
+    longest = Cost(operations).longest_row(problem).total
     following = [1]  # words for the last 0, 1, ... contacts
     for modes in reversed(choices):
         following.append(following[-1] * len(modes))
-    covered, prefixes = 0, {}
-    listed = items(witness["prefixes"], "$.witness.prefixes")
-    operations = product_operations(len(problem.b), len(listed))
-    longest = Cost(operations).longest_row(problem).total
-    for at, entry in listed:
+    covered, prefixes, columns = 0, {}, list(map(over, zip(*problem.A)))
+    for at, entry in items(witness["prefixes"], "$.witness.prefixes"):
         fields(entry, at, "modes", "y")
-        named = items(entry["modes"], at + ".modes")
+        named = listed(entry["modes"], at + ".modes")
         need(len(named) <= len(choices), at + ".modes", len(named), f"<= {len(choices)} modes")
-        prefix = tuple(one_of(mode, where, modes) for (where, mode), modes in zip(named, choices))
+        prefix = tuple(one_of(mode, f"{at}.modes[{i}]", modes) for i, (mode, modes) in enumerate(zip(named, choices)))
         need(prefix not in prefixes, at + ".modes", prefix,
              f"no prefix twice, see {prefixes.get(prefix)}")
         prefixes[prefix] = at
         y = vector(entry["y"], at + ".y", len(problem.b))
         Cost(operations).add(longest).numbers(y, 2)
-        check_refutation(problem, prefix, y, at + ".y")
+        check_refutation(problem, columns, prefix, y, at + ".y")
         covered += following[len(choices) - len(prefix)]
-    for prefix, at in prefixes.items():
-        for length in range(len(prefix)):
-            need(prefix[:length] not in prefixes, at + ".modes", prefix,
-                 f"no prefix that begins with another, {prefixes.get(prefix[:length])}")
+    begun = None  # by the order of texts each stands right behind what begins it
+    for prefix in sorted(prefixes):
+        need(begun is None or prefix[:len(begun)] != begun, f"{prefixes[prefix]}.modes", prefix,
+             f"no prefix that begins with another, {prefixes.get(begun)}")
+        begun = prefix
     need(covered == following[-1], "$.witness.prefixes", covered,
          f"{following[-1]} words covered, all of them")
     return f"{following[-1]} words, {len(prefixes)} prefixes"
@@ -478,6 +511,11 @@ def strict_modes(contact):
     return ("hold",) if contact.kind == "bilateral" else ("break", "touch")
 
 
+def box_operations(n, fixed, unknowns):
+    """Of Krawczyk's test, n rows."""
+    return product_operations(n, 2 * fixed + 4) + product_operations(max(unknowns, 0), 2 * max(unknowns, 0) + 4)
+
+
 def read_fixed(problem, witness, zero):
     """Row -> (force, weights, place) of those of the rows `zero` that follow from the others; and these."""
     fixed, last = {}, -1
@@ -498,12 +536,6 @@ def require_dependence(problem, kept, fixed):
         for column in columns:
             need(dot(weights, [column[k] for k in kept]) == column[row], at + ".weights", column[row],
                  f"the sum by these weights, in every column of A and in b (row {row})")
-
-
-def over(numbers):
-    """Integers, and the denominator that they have in common."""
-    denominator = lcm(*(x.denominator for x in numbers))
-    return [x.numerator * (denominator // x.denominator) for x in numbers], denominator
 
 
 def require_zero_in_box(equations, x, inverse, radius):
@@ -527,9 +559,10 @@ def check_coulomb_exact(problem, witness):
     radius = exact(witness["radius"], "$.witness.radius")
     need(radius > 0, "$.witness.radius", radius, "a number > 0")
     still = [span if mode == "stick" else span[:mode != "break"] for mode, _, span in contacts]  # a = 0, f an unknown
+    n, count = len(problem.b), len(listed(witness["fixed"], "$.witness.fixed"))
+    size = sum(map(len, still)) - count + 3 * sum(mode == "slip" for mode, _, _ in contacts)
+    cost = Cost(box_operations(n, count, size))
     kept, fixed = read_fixed(problem, witness, [row for span in still for row in span])
-    n, size = len(problem.b), len(kept) + 3 * sum(mode == "slip" for mode, _, _ in contacts)
-    cost = Cost(product_operations(n, len(fixed) + 2) + product_operations(size, size + 2))
     x, inverse = vector(witness["x"], "$.witness.x", size), rows(witness["inverse"], "$.witness.inverse", size)
     cost.longest_row(problem).numbers([*x, radius, *(f for f, _, _ in fixed.values())], 2)
     cost.numbers([part for contact in problem.contacts for part in (contact.mu or Fraction(0), *contact.slip)], 2)
@@ -573,24 +606,22 @@ def check_coulomb_exact(problem, witness):
 # --- Safe and unsafe: determinants of the reduced matrix (certify/certificates.md) -----------
 
 def determinant(M):
-    """By Gaussian elimination of a copy of the rows M."""
-    M, result = [list(row) for row in M], Fraction(1)
-    for k in range(len(M)):
-        p = next((i for i in range(k, len(M)) if M[i][k]), None)
+    """By an elimination of the rows M."""
+    rest, scales = integer_rows(M)
+    minor, sign = 1, 1
+    while rest:
+        p = next((i for i, row in enumerate(rest) if row[0]), None)
         if p is None:
-            return Fraction(0)
-        if p != k:
-            M[k], M[p], result = M[p], M[k], -result
-        result *= M[k][k]
-        for i in range(k + 1, len(M)):
-            if factor := M[i][k] / M[k][k]:
-                M[i] = [x - factor * y for x, y in zip(M[i], M[k])]
-    return result
+            return ZERO
+        if p:
+            rest[0], rest[p], sign = rest[p], rest[0], -sign
+        rest, minor = take_pivot(rest, minor)
+    return Fraction(sign * minor, prod(scales))
 
 
-def reduced(problem, word):
-    """The rows of the reduced matrix of a word."""
-    kept, columns, by_column = [], [], list(zip(*problem.A))
+def reduced(problem, word, by_column):
+    """The rows of the reduced matrix of a word; `by_column`: the columns of A."""
+    kept, columns = [], []
     for mode, (_, contact, span) in zip(word, planar_contacts(problem)):
         if mode == "break":
             continue
@@ -599,13 +630,13 @@ def reduced(problem, word):
             columns += [by_column[row] for row in kept[len(columns):]]
         else:
             along = -contact.mu if mode == "slip+" else contact.mu
-            columns.append([x + along * y for x, y in zip(*(by_column[row] for row in span))])
+            columns.append([x + along * y if y else x for x, y in zip(*(by_column[row] for row in span))])
     return [[column[row] for column in columns] for row in kept]
 
 
-def reduced_determinant(problem, word, stated, place):
+def reduced_determinant(problem, word, by_column, stated, place):
     """det R(word), which must be the number that is stated."""
-    value = determinant(reduced(problem, word))
+    value = determinant(reduced(problem, word, by_column))
     stated = exact(stated, place)
     need(stated == value, place, stated, value, f" (the reduced determinant of {brief(tuple(word))})")
     return value
@@ -621,13 +652,19 @@ def words_of(problem):
     return prod(map(len, choices)), choices
 
 
+def word_operations(n, times):
+    """Of reduced determinants, which have half of the rows on average."""
+    return times * (n**3 + 40 * n**2 + 500 * n + 1000) // 300
+
+
 def check_safe(problem, witness):
     count, choices = words_of(problem)
     smallest = Fraction(1)  # that of the word in which every contact breaks
     stated = items(witness["determinants"], "$.witness.determinants", count)
-    Cost(reduced_operations(len(problem.b), count)).all_rows(problem)
+    Cost(word_operations(len(problem.b), count)).all_rows(problem)
+    by_column = list(zip(*problem.A))
     for word, (at, value) in zip(product(*choices), stated):
-        value = reduced_determinant(problem, word, value, at)
+        value = reduced_determinant(problem, word, by_column, value, at)
         need(value > 0, at, value, "a determinant > 0")
         smallest = min(smallest, value)
     return f"{count} words, smallest determinant {brief(smallest)}"
@@ -635,14 +672,11 @@ def check_safe(problem, witness):
 
 def is_semidefinite(M):
     """By elimination down the diagonal: pivots >= 0, and where one is zero its column, too."""
-    M = [list(row) for row in M]
-    for k in range(len(M)):
-        if M[k][k] < 0 or (M[k][k] == 0 and any(M[i][k] for i in range(k, len(M)))):
+    rest, minor = integer_rows(M)[0], 1
+    while rest:
+        if rest[0][0] < 0 or (rest[0][0] == 0 and any(row[0] for row in rest)):
             return False
-        for i in range(k + 1, len(M)):
-            if M[i][k]:
-                factor = M[i][k] / M[k][k]
-                M[i] = [x - factor * y for x, y in zip(M[i], M[k])]
+        rest, minor = take_pivot(rest, minor) if rest[0][0] else (drop_pivot(rest), minor)
     return True
 
 
@@ -651,6 +685,7 @@ def check_safe_by_condition(problem, witness):
     words_of(problem)  # static and frictionless contacts only
     check_symmetric(problem, {})
     n = len(problem.b)
+    Cost(elimination_operations(n, 2))
     d = vector(witness["scaling"], "$.witness.scaling", n)
     for i in range(n):
         need(d[i] > 0, f"$.witness.scaling[{i}]", d[i], "a number > 0")
@@ -674,7 +709,7 @@ def check_unsafe(problem, witness):
     named = items(witness["word"], "$.witness.word", len(choices))
     word = [one_of(mode, at, modes) for (at, mode), modes in zip(named, choices)]
     Cost(elimination_operations(len(problem.b))).all_rows(problem)
-    value = reduced_determinant(problem, word, witness["determinant"], "$.witness.determinant")
+    value = reduced_determinant(problem, word, list(zip(*problem.A)), witness["determinant"], "$.witness.determinant")
     need(value <= 0, "$.witness.determinant", value, "a determinant <= 0")
     return f"{' '.join(word)}, determinant {brief(value)}"
 

@@ -20,12 +20,12 @@ import json
 import sys
 from collections import namedtuple
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
+from operator import floordiv, truediv
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (Cost, dot, exact, fields, items, main, need, planar_contacts, reduced_operations,
-                                times)
+from certificate_reader import Cost, dot, exact, fields, integer_rows, items, listed, main, need, planar_contacts, times
 import check_runs_in_space
 
 # --- Problems and policies -----------------------------------------------------------
@@ -95,47 +95,58 @@ def sign(x):
 def solve(M):
     """x with M x = r, given rows [M | r]. An unknown whose column depends linearly on the
     columns before it is zero. None if the system is inconsistent."""
-    M, n, pivots = list(M), len(M), []
+    whole = all(type(x) is Fraction for row in M for x in row)  # otherwise numbers of another field
+    divided = floordiv if whole else truediv
+    M, n, pivots, minor = integer_rows(M)[0] if whole else M, len(M), [], 1  # all pivots so far are `minor`
     for c in range(n):
         top = len(pivots)
         p = next((i for i in range(top, n) if M[i][c]), None)
         if p is None:
             continue
         M[top], M[p] = M[p], M[top]
-        M[top] = [x / M[top][c] for x in M[top]]
-        for i in range(n):
-            if i != top and M[i][c]:
-                M[i] = [x - M[i][c] * y for x, y in zip(M[i], M[top])]
+        pivot, row = M[top][c], M[top]
+        M = [other if i == top else [divided(pivot * x - other[c] * y, minor) for x, y in zip(other, row)]
+             for i, other in enumerate(M)]
         pivots.append(c)
+        minor = pivot
     if any(row[n] for row in M[len(pivots):]):
         return None
     x = [Fraction(0)] * n
     for row, c in zip(M, pivots):
-        x[c] = row[n]
+        x[c] = Fraction(row[n], minor) if whole else row[n] / minor
     return x
 
 
 @lru_cache(maxsize=1 << 16)
 def fdirection(rows, sets, driven, rate):
     """(df, da) while the driven force changes at `rate`; None if there is none."""
-    def following(row, change):
-        """df if this force changes, and with a normal its friction in NC+ or NC-."""
-        df, x = [Fraction(0)] * len(sets), rows.variables[row]
-        df[row] = Fraction(change)
+    def following(row):
+        """Its row and 1, if this force changes; and with a normal its friction in NC+ or NC-, and how much that does."""
+        x, along = rows.variables[row], rows.sliding.get(row)
         if row == x.normal and x.friction and sets[x.friction] in ("NC+", "NC-"):
-            df[x.friction] = change * (x.mu if sets[x.friction] == "NC+" else -x.mu)
-        if row in rows.sliding:
-            df[row + 1] = change * rows.sliding[row]
-        return df
+            along = x.mu if sets[x.friction] == "NC+" else -x.mu
+        return [(row, 1)] + ([] if along is None else [(row + 1, along)])
+
+    def effect(row):
+        column = [line[row] for line in rows.A]
+        for other, along in following(row)[1:]:
+            column = [x + along * line[other] if line[other] else x for x, line in zip(column, rows.A)]
+        return column
 
     unknown = rows.held + [row for row, where in enumerate(sets)
                               if where in ("C", "CF") and row not in rows.held]
-    forces = [following(row, 1) for row in unknown] + [following(driven, rate)]
-    effects = [times(rows.A, df) for df in forces]
-    x = solve([[da[row] for da in effects[:-1]] + [-effects[-1][row]] for row in unknown])
+    effects, last = [effect(row) for row in unknown], [rate * x for x in effect(driven)]
+    x = solve([[da[row] for da in effects] + [-last[row]] for row in unknown])
     if x is None:
         return None
-    return times(zip(*forces), x + [1]), times(zip(*effects), x + [1])
+    df, da = [Fraction(0)] * len(sets), last
+    for row, change in [*zip(unknown, x), (driven, Fraction(rate))]:
+        for at, along in following(row):
+            df[at] += change * along
+    for change, column in zip(x, effects):
+        if change:
+            da = [y + change * z for y, z in zip(da, column)]
+    return df, da
 
 
 def held_forces(rows):
@@ -188,11 +199,22 @@ class Published:
     def __init__(self, rows, policy, on_step):
         """on_step(steps) is called after every step, with all made so far; it may raise Ended."""
         self.rows, self.variables, self.policy, self.on_step = rows, rows.variables, policy, on_step
-        self.f = held_forces(rows)
-        self.a = None if self.f is None else [x + y for x, y in zip(times(rows.A, self.f), rows.b)]
+        self.known = rows.__dict__.setdefault("known", {})  # of points that runs under other policies came to
+        self.f, self.a = self.remembered_of(self.first_point, "first")
         self.sets = ["C" if row in rows.held else "none" for row in range(len(rows.b))]
         self.last = None  # the contact driven last
         self.drives, self.steps = 0, []
+
+    def first_point(self):
+        f = held_forces(self.rows)
+        return f, None if f is None else [x + y for x, y in zip(times(self.rows.A, f), self.rows.b)]
+
+    def remembered_of(self, compute, *of, point=()):
+        """What is computed of a point f, a: only once of the same one. Whoever takes the same steps comes to it."""
+        key = (*map(id, point), *of)
+        if key not in self.known:
+            self.known[key] = compute(), point  # which stays, and with it its id
+        return self.known[key][0]
 
     # Main loop (readings, section 2).
 
@@ -230,6 +252,9 @@ class Published:
 
     def violated(self, row):
         """A normal that fails (15), or a friction variable that fails (16) while (15) holds."""
+        return self.remembered_of(lambda: self.fails(row), row, point=(self.f, self.a))
+
+    def fails(self, row):
         if self.rows.is_passive(row):
             return False
         x = self.variables[row]
@@ -308,6 +333,12 @@ class Published:
         rate = -sign(self.a[v] if goal == "establish" else self.f[v])
         if v == self.variables[v].normal:
             rate = 1
+        first, self.f, self.a = self.remembered_of(lambda: self.step(v, goal, rate), v, goal, self.policy["ties"],
+                                                   *self.sets, point=(self.f, self.a))
+        return first
+
+    def step(self, v, goal, rate):
+        """The first limit, and the point there."""
         change = fdirection(self.rows, tuple(self.sets), v, rate)
         if change is None:
             raise Ended("singular")
@@ -315,9 +346,8 @@ class Published:
         if not limits:
             raise Ended("ray")
         first = min(limits, key=lambda limit: limit[:2])  # of equals the one found first
-        self.f, self.a = ([x + first[0] * y for x, y in zip(now, rates)]
-                          for now, rates in zip((self.f, self.a), change))
-        return first
+        return first, *([x + first[0] * y for x, y in zip(now, rates)]
+                        for now, rates in zip((self.f, self.a), change))
 
     def limits(self, v, goal, df, da):
         """maxstep: (s, rank among ties, variable, set it wants into); s None: no limit."""
@@ -395,13 +425,12 @@ def same(value, computed, place, policy):
 
 def check_policy(rows, stated, place, policy):
     """Runs the policy as long as its steps are those stated; returns the run if it is the one stated."""
-    steps = items(stated["pivots"], place + ".pivots")
+    steps = listed(stated["pivots"], place + ".pivots")
 
     def compare(made):
         need(len(made) <= len(steps), place + ".pivots", len(steps), "more steps: no repetition yet",
              f" under {policy}")
-        at, step = steps[len(made) - 1]
-        same(step, made[-1], at, policy)
+        same(steps[len(made) - 1], made[-1], f"{place}.pivots[{len(made) - 1}]", policy)
 
     found = run(rows, policy, compare)
     need(found.outcome == "cycle", place, "a cycle", f"{found.outcome} after {len(found.pivots)} steps",
@@ -411,19 +440,24 @@ def check_policy(rows, stated, place, policy):
     return found
 
 
+def steps_operations(n, witness):
+    """Of one step more than are stated: most is done once for all policies."""
+    operations = 0
+    for place, stated in items(witness["runs"], "$.witness.runs"):
+        fields(stated, place, "policies", "start", "period", "pivots", "state")
+        policies = len(listed(stated["policies"], place + ".policies"))
+        steps = len(listed(stated["pivots"], place + ".pivots")) + 1
+        operations += steps * (n**3 // 4 + 3 * n**2 + 100 * n + (5 * n + 40) * policies)
+    return operations
+
+
 def check_runs(problem, witness):
     """The runs of a witness; the facts to print."""
     rows, first, runs = Rows(problem), {}, []
-    listed = items(witness["runs"], "$.witness.runs")
-    for place, stated in listed:
-        fields(stated, place, "policies", "start", "period", "pivots", "state")
-    steps = sum(len(items(stated["policies"], place + ".policies")) * (len(items(stated["pivots"], place + ".pivots")) + 1)
-                for place, stated in listed)
-    Cost(reduced_operations(len(problem.b), steps)).all_rows(problem)
-    for place, stated in listed:
-        policies = items(stated["policies"], place + ".policies")
-        need(policies, place + ".policies", [], "at least one policy")
-        for at, policy in policies:
+    Cost(steps_operations(len(problem.b), witness)).all_rows(problem)
+    for place, stated in items(witness["runs"], "$.witness.runs"):
+        need(stated["policies"], place + ".policies", [], "at least one policy")
+        for at, policy in items(stated["policies"], place + ".policies"):
             read_policy(policy, at)
             need(policy not in first, at, policy, f"no policy twice, see {first.get(policy)}")
             first[policy] = at

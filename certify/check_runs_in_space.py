@@ -24,9 +24,10 @@ from fractions import Fraction
 from itertools import count
 from math import isqrt
 
-from certificate_reader import Cost, brief, integer, items, need, one_of, reduced_operations, vector
+from certificate_reader import Cost, brief, integer, items, listed, need, one_of, vector
 
 MOST_BITS = 4096
+LARGE = "numbers of A, b and mu are below 2^(bits / 4)"
 SWITCHES = {  # the value of the reference policy `paper` first; those of the plane that have a meaning in space
     "scan": ("lowest", "normals-first", "most-violated", "highest"),
     "resume": ("restart", "round"),
@@ -830,13 +831,21 @@ def read_box(run, witness):
 
 
 def take_period(walk, run, witness):
-    """One period more, of the steps that are stated, to the sets of `run`, which stands at the start."""
-    end = walk.drives + witness["period"]
-    walk.on_step = Stated(witness["word"], run.on_step.done)
+    """One period more, of the steps that are stated, to the sets of `run`, which stands at the start; after every step,
+    how many names were given in the period."""
+    end, first, named = walk.drives + witness["period"], next(fresh), []
+    stated = Stated(witness["word"], run.on_step.done)
+
+    def note(step):
+        stated(step)
+        named.append(next(fresh) - first)
+
+    walk.on_step = note
     walk.run_until(end)
     need(walk.drives == end, "$.witness.period", witness["period"], "drives to a state of the main loop")
     same_state_again(walk, run)
-    walk.on_step.must_be_done()
+    stated.must_be_done()
+    return named
 
 
 def image(run, witness, values, charts):
@@ -849,18 +858,19 @@ def image(run, witness, values, charts):
     return list(ends.coordinates(charts)), ends, begins
 
 
-def turnings_that_end(run, witness, values, charts):
+def turnings_that_end(run, witness, box, charts):
     """Of each contact that turns away in a period: whether its aF were zero there, if every period were like the one
     before. What one period names the next names again, so many names later: are there lines of which that shows that
-    they are one, and has it a point with aF = 0?"""
-    walk = run.standing(values, charts, None)
-    walk.turnings, marks, counts = [], [next(fresh)], [0]
+    they are one, and has it a point with aF = 0? `box`: all points at once, so that what has one name there is the same
+    by the steps that the run takes, not by the numbers of one point."""
+    walk = run.standing(box, charts, None)
+    walk.turnings, marks, counts, named = [], [next(fresh)], [0], []
     for _ in range(3):
-        take_period(walk, run, witness)
+        named.append(take_period(walk, run, witness))
         marks.append(next(fresh))
         counts.append(len(walk.turnings))
     apart = marks[1] - marks[0]
-    if any(y - x != apart for x, y in zip(marks, marks[1:])):
+    if any(y - x != apart for x, y in zip(marks, marks[1:])) or not named[0] == named[1] == named[2]:
         raise Unsure("whether two periods name the same")
 
     def alike(name):
@@ -880,7 +890,7 @@ class Box:
         self.charts, self.centre, self.radii = read_box(run, witness)
         size, unit = len(self.centre), 1 << Number.bits
         middle, *_ = image(run, witness, [Number.around(x) for x in self.centre], self.charts)
-        box = [Number.side(m, size, x, r) for m, (x, r) in enumerate(zip(self.centre, self.radii))]
+        box = self.sides()
         found, ends, begins = image(run, witness, box, self.charts)
         self.turnings = [aside for aside, *_ in ends.turnings]
         self.slopes = [x.slopes or [(0, 0)] * size for x in found]
@@ -905,11 +915,13 @@ class Box:
         kind = "punctured box" if self.witness["kind"] == "punctured" else "box"
         return f"a {kind} of {len(self.radii)} coordinates, {len(self.radii) - len(self.moving)} untouched"
 
+    def sides(self):
+        return [Number.side(m, len(self.centre), x, r) for m, (x, r) in enumerate(zip(self.centre, self.radii))]
+
     def must_turn_away(self):
         """But at the fixed point, to which the run does not come."""
         need(len(self.moving) == 1, "$.witness.kind", f"{len(self.moving)} coordinates move", "1 in a punctured box")
-        centre = [Number.around(x) for x in self.centre]
-        ends = turnings_that_end(self.run, self.witness, centre, self.charts)
+        ends = turnings_that_end(self.run, self.witness, self.sides(), self.charts)
         if len(ends) != len(self.turnings):
             raise Unsure("which contacts turn away")
         for end, aside in zip(ends, self.turnings):
@@ -930,14 +942,21 @@ class Box:
         need(apart, "$.witness.start", self.witness["start"], "a state that the period surely moves")
 
 
+def step_operations(n, coordinates, steps):
+    """Of steps over numbers with so many derivatives."""
+    return steps * (1 + coordinates) * (n**3 + 20 * n**2 + 300 * n) // 4
+
+
 def begin(problem, witness, policy, coordinates=0):
     """A run from f = 0, over numbers of so many bits, of the steps that are stated."""
     Number.bits = integer(witness["bits"], "$.witness.bits", 64, MOST_BITS + 1)
-    word = items(witness["word"], "$.witness.word")
-    for at, step in word:
+    steps = len(listed(witness["word"], "$.witness.word")) + 1
+    Cost(step_operations(len(problem.b), coordinates, steps)).add(Number.bits).longest_row(problem)
+    for at, step in items(witness["word"], "$.witness.word"):
         need(type(step) is str, at, step, "a step as a text")
-    cost = Cost(reduced_operations(len(problem.b), 8 * (len(word) + 1) * (1 + coordinates))).add(2 * Number.bits)
-    cost.longest_row(problem)
+    numbers = [*problem.b, *(x for row in problem.A for x in row), *(contact.mu or 0 for contact in problem.contacts)]
+    largest = max(map(abs, numbers), default=0)
+    need(largest < 1 << Number.bits // 4, "$.witness.bits", Number.bits, f"more bits: {LARGE}")
     return Run(Space(problem), policy, Stated(witness["word"]))
 
 

@@ -9,14 +9,16 @@ FILE: a problem in JSON, a Siconos friction problem or LCP (.dat), or an FCLIB p
 python3-h5py). Prints the largest error, its contact (from 1), and the residual that the answer itself names; exit 1
 where the one found here is more than twice that, and 1e-12 more.
 
-a = A f + b in doubles, each sum rounded once (math.fsum). A contact's error is that of its nearest mode (separates,
-sticks, slips), each condition in the contact's units; the law is Coulomb's:
+a = A f + b over fractions. With S_i = sum_j abs(A_ij f_j), eps = 1e-8 (1e-5 of an answer over float), tau = 8 roundings of
+its numbers and theta = tau / eps, a row is held to
 
-    unit of a_i   abs(b_i) + min(sum_j abs(A_ij) max(abs(f_j), abs(b_j) / A_jj), sqrt(A_ii W))
-    unit of f_i   that of a_i / A_ii
-    W             min(abs(f'Af), abs(power of sliding friction - b'f)), over the contacts that A couples to i
+    s_N = abs(b_N) + theta S_N,   s_F = abs(b_F) + theta S_F    (abs(b_F): of the tangents of a contact together)
 
-Trusted: Python and this file, which was written from what solver/problem/units.h and errors.h say, and shares no code
+and a contact to the nearest of its modes, the law being Coulomb's: separates (f = 0, aN >= 0), sticks (a = 0, abs(fF) <=
+mu fN), slips (aN = 0, abs(fF) = mu fN, aF against fF). Lengths of friction are measured in mu fN. What forces that should
+be zero do to a row is added to what it misses.
+
+Trusted: Python and this file, which was written from what solver/problem/errors.h says, and shares no code
 with the C++. It judges; it proves nothing: check_certificate.py does."""
 
 import json
@@ -303,121 +305,124 @@ def read(path):
 
 
 def forces_of(path, rows):
-    """Forces in newtons, and the residual that the answer names."""
+    """Forces in newtons, the residual that the answer names, and theta of its numbers."""
     try:
         with open(path, encoding="utf-8") as file:
             answer = json.load(file)
         f = [number(x) for x in answer["f"]]
         said = float(answer.get("residual", 0.0))
+        narrow = answer.get("arithmetic") == "float"
     except OSError as error:
         sys.exit(f"residuals: {path}: found nothing to read ({error.strerror}), expected what solve --json prints")
     except (ValueError, KeyError, TypeError, AttributeError):
         sys.exit(f"residuals: {path}: found no list f of forces, expected what solve --json prints of a solution")
     if len(f) != rows:
         sys.exit(f"residuals: {path}: found {len(f)} forces, expected {rows}, one for each row of the problem")
-    return f, said
+    return f, said, 8 * 2.0**-24 / 1e-5 if narrow else 8 * 2.0**-53 / 1e-8
 
 
 # ---- Errors --------------------------------------------------------------------------------------------------
-
-
-def groups(problem):
-    """For each row the least contact that A couples to its own, through others too."""
-    parent = list(range(len(problem.contacts)))
-    of_row = [k for k, contact in enumerate(problem.contacts) for _ in range(problem.rows_of(contact))]
-
-    def root(k):
-        while parent[k] != k:
-            parent[k] = parent[parent[k]]
-            k = parent[k]
-        return k
-
-    for i, row in enumerate(problem.A):
-        for j in row:
-            one, other = root(of_row[i]), root(of_row[j])
-            parent[max(one, other)] = min(one, other)
-    return [root(k) for k in of_row]
-
-
-def units(problem, f, a):
-    group, b = groups(problem), problem.b
-    own = [abs(row.get(i, 0.0)) for i, row in enumerate(problem.A)]
-    counted = [max(abs(f[i]), abs(b[i]) / own[i] if own[i] > 0 else 0.0) for i in range(len(b))]
-    works = {}
-    for i in range(len(b)):
-        parts = works.setdefault(group[i], ([], [], []))
-        parts[0].append(f[i] * (a[i] - b[i]))
-        parts[1].append(b[i] * f[i])
-    for k, contact in enumerate(problem.contacts):
-        if contact.kind == "sliding":
-            row = problem.first[k]
-            works[group[row]][2].extend(f[row + 1 + t] * a[row + 1 + t] for t in range(problem.dimension - 1))
-    least = {key: min(abs(math.fsum(done)), abs(math.fsum(sliding) - math.fsum(free)))
-             for key, (done, free, sliding) in works.items()}
-    of_a = []
-    for i, row in enumerate(problem.A):
-        total = math.fsum(abs(x) * counted[j] for j, x in row.items())
-        of_a.append(abs(b[i]) + min(total, math.sqrt(own[i] * least[group[i]])))
-    return of_a, [of_a[i] / own[i] if own[i] > 0 else 0.0 for i in range(len(b))]
 
 
 def over(value, unit):
     return 0.0 if value == 0 else value / unit if unit > 0 else NONE
 
 
-def slipping(limit, fF, aF, unit_f, unit_a):
-    """What friction that slips misses: of the force alone, or, where slip is slow, of both moved."""
-    speed = math.hypot(*aF)
-    ways = []
-    if speed > 0:
-        ways.append(over(math.dist(fF, [-limit * x / speed for x in aF]), unit_f))
-    if unit_a > 0:
-        ratio = unit_f / unit_a
-        target = [x - ratio * y for x, y in zip(fF, aF)]
-        length = math.hypot(*target)
-        if length > limit:
-            target = [x * limit / length for x in target]
-        ways.append(over(math.dist(fF, target), unit_f))
-    return min(ways, default=NONE)
+class Judge:
+    """One set of forces: a, s by rows."""
 
+    def __init__(self, problem, f, theta):
+        self.problem, self.f, self.theta = problem, f, theta
+        exact = [Fraction(x) for x in f]
+        self.a = [float(sum((Fraction(x) * exact[j] for j, x in row.items() if f[j]), Fraction(b)))
+                  for row, b in zip(problem.A, problem.b)]
+        self.s, self.columns = [], [[] for _ in f]
+        for i, row in enumerate(problem.A):
+            self.s.append(theta * math.fsum(abs(x * f[j]) for j, x in row.items()))
+            for j, x in row.items():
+                self.columns[j].append((i, abs(x)))
+        for k, contact in enumerate(problem.contacts):
+            first = problem.first[k]
+            self.s[first] += abs(problem.b[first])
+            tangents = range(first + 1, first + problem.rows_of(contact))
+            for i in tangents:
+                self.s[i] += math.hypot(*[problem.b[t] for t in tangents])
 
-def error_of(problem, k, f, a, of_a, of_f):
-    contact, row = problem.contacts[k], problem.first[k]
-    rest = range(row + 1, row + problem.rows_of(contact))
-    fN, aN, ua, uf = f[row], a[row], of_a[row], of_f[row]
-    if contact.kind == "bilateral":
-        return over(abs(aN), ua)
-    opened = max(over(max(0.0, -aN), ua), over(abs(fN), uf))
-    closed = max(over(abs(aN), ua), over(max(0.0, -fN), uf))
-    if contact.kind == "frictionless":
-        return min(opened, closed)
-    fF, aF = [f[i] for i in rest], [a[i] for i in rest]
-    unit_a, unit_f = max(of_a[i] for i in rest), max(of_f[i] for i in rest)
-    unit = max(unit_f, contact.mu * uf)
-    if contact.kind == "sliding":
-        missed = over(math.dist(fF, [-s * contact.mu * fN for s in contact.slip]), unit)
-        return min(max(opened, missed), max(closed, missed))
-    limit = contact.mu * max(0.0, fN)
-    opened = max(opened, over(math.hypot(*fF), unit_f))
-    sticks = max(closed, over(math.hypot(*aF), unit_a), over(max(0.0, math.hypot(*fF) - limit), unit))
-    return min(opened, sticks, max(closed, slipping(limit, fF, aF, unit, unit_a)))
+    def noticed(self, j):
+        """What force j does to the row that notices it most."""
+        return max((over(x * abs(self.f[j]), self.s[i]) for i, x in self.columns[j]), default=0.0) if self.f[j] else 0.0
 
+    def contact(self, k):
+        """Its error, rows that should be at rest with what they miss, and forces that should be zero."""
+        problem, f, a, s = self.problem, self.f, self.a, self.s
+        kind, row = problem.contacts[k], problem.first[k]
+        rest = range(row + 1, row + problem.rows_of(kind))
+        if kind.kind == "bilateral":
+            return over(abs(a[row]), s[row]), {row: abs(a[row])}, []
+        ghosts = [j for j in (row, *rest) if f[j]]
+        opened = max([over(max(0.0, -a[row]), s[row])] + [self.noticed(j) for j in ghosts])
+        pulls = self.noticed(row) if f[row] < 0 else 0.0
+        missed = {row: abs(a[row])}
+        closed, of_friction = max(over(abs(a[row]), s[row]), pulls), 0.0
+        if kind.kind in ("static", "sliding"):
+            of_friction, of_rows = self.friction(kind, row, rest)
+            missed |= of_rows
+            closed = max([closed, of_friction] + [over(x, s[i]) for i, x in of_rows.items()])
+        if opened < closed:
+            return 0.0, {row: -a[row]}, ghosts
+        return of_friction, missed, [row] if f[row] < 0 else []
 
-def largest(problem, f):
-    """The largest error, and its contact, from 1."""
-    a = [math.fsum([*(x * f[j] for j, x in row.items()), problem.b[i]]) for i, row in enumerate(problem.A)]
-    of_a, of_f = units(problem, f, a)
-    errors = [error_of(problem, k, f, a, of_a, of_f) for k in range(len(problem.contacts))]
-    worst = max(range(len(errors)), key=errors.__getitem__, default=None)
-    return (errors[worst], worst + 1) if errors else (0.0, None)
+    def friction(self, kind, row, rest):
+        """The error of its length, and what the tangential rows miss; of the nearer of sticking and slipping."""
+        f, a, s = self.f, self.a, self.s
+        limit = kind.mu * max(0.0, f[row])
+        fF, aF, unit = [f[i] for i in rest], [a[i] for i in rest], [s[i] for i in rest]
+        if kind.kind == "sliding":
+            return over(math.hypot(*[x + y * limit for x, y in zip(fF, kind.slip)]), limit), {}
+        force = math.hypot(*fF)
+        if limit == 0:
+            return NONE if force else 0.0, {}
+        sticks = over(max(0.0, force - limit), limit), dict(zip(rest, map(abs, aF)))
+
+        def against(t):  # aF = -t fF
+            return [abs(x + t * y) for x, y in zip(aF, fF)]
+
+        tried = [0.0]
+        lines = [(x / u, y / u) for x, y, u in zip(aF, fF, unit) if u > 0 and y]
+        tried += [-p / q for p, q in lines]
+        if len(lines) == 2:
+            (p, q), (x, y) = lines
+            tried += [(x - p) / (q - y)] if q != y else []
+            tried += [-(x + p) / (q + y)] if q != -y else []
+        t = min((t for t in tried if t >= 0), key=lambda t: max(map(over, against(t), unit)))
+        slips = over(abs(force - limit), limit), dict(zip(rest, against(t)))
+        return min(sticks, slips, key=lambda way: max([way[0]] + [over(x, s[i]) for i, x in way[1].items()]))
+
+    def largest(self):
+        """The largest error, and its contact, from 1."""
+        found = [self.contact(k) for k in range(len(self.problem.contacts))]
+        noise = [0.0] * len(self.f)
+        for _, _, ghosts in found:
+            for j in ghosts:
+                for i, x in self.columns[j]:
+                    noise[i] += x * abs(self.f[j])
+        errors = []
+        for k, (of_friction, missed, _) in enumerate(found):
+            first = self.problem.first[k]
+            rows = range(first, first + self.problem.rows_of(self.problem.contacts[k]))
+            errors.append(max([of_friction] + [over(max(noise[i], missed.get(i, 0.0) + noise[i]),
+                                                    max(0.0, self.s[i] - self.theta * noise[i])) for i in rows]))
+        errors = [min(x, 1 / self.theta) for x in errors]
+        worst = max(range(len(errors)), key=errors.__getitem__, default=None)
+        return (errors[worst], worst + 1) if errors else (0.0, None)
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     problem = read(sys.argv[1])
-    f, said = forces_of(sys.argv[2], len(problem.b))
-    error, contact = largest(problem, f)
+    f, said, theta = forces_of(sys.argv[2], len(problem.b))
+    error, contact = Judge(problem, f, theta).largest()
     print(f"error {error:.3g} at contact {contact}; the answer says {said:.3g}")
     return 1 if error > 2 * said and error - said >= 1e-12 else 0
 

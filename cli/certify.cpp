@@ -18,7 +18,10 @@
 #include "certify/request/request.h"
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"
+#include "cli/narration/safety.h"
+#include "cli/program.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/scene_file.h"
@@ -41,27 +44,21 @@ EnumerationOptions Shown(ProgressBar& bar) {
   EnumerationOptions options;
   options.progress = [&bar](const EnumerationProgress& progress) {
     if (progress.prefixes % 64 == 0) {
-      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {} linear programs, {} solutions",
-                                             100 * progress.decided, progress.programs, progress.solutions));
+      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {}, {}", 100 * progress.decided,
+                                             Counted(progress.programs, "linear program"),
+                                             Counted(progress.solutions, "solution")));
     }
     return true;
   };
   return options;
 }
 
-// ["slip-", "stick"] -> "slip- stick".
-std::string WordText(const Json& word) {
-  std::string text;
-  for (const Json& mode : word) text += (text.empty() ? "" : " ") + mode.get<std::string>();
-  return text;
-}
-
 std::string SolutionsText(const Enumeration& modes) {
   std::string text = fmt::format(
-      "{} of the contact modes {} solutions, with {} distinct witness{}{} ({} linear programs)\n",
-      modes.solutions.size(), modes.solutions.size() == 1 ? "has" : "have", modes.distinct_witnesses,
-      modes.distinct_witnesses == 1 ? "" : "es",
-      modes.end == EnumerationEnd::kComplete ? "" : " so far: not all were looked at", modes.programs);
+      "{} of the contact modes {} solutions, with {}{} ({})\n", modes.solutions.size(),
+      modes.solutions.size() == 1 ? "has" : "have", Counted(modes.distinct_witnesses, "distinct witness"),
+      modes.end == EnumerationEnd::kComplete ? "" : " so far: not all were looked at",
+      Counted(modes.programs, "linear program"));
   for (const WordSolution& solution : modes.solutions)
     text += fmt::format("  {}: f = {}{}\n", WordText(WordToJson(solution.word)),
                         ListText(solution.f, FractionText::kShort), solution.unique ? "" : ", and others");
@@ -94,106 +91,17 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
 
 // ---- Safety ----
 
-Json ThresholdToJson(const SafetyThreshold& threshold) {
-  Json polynomial = Json::array();
-  for (const Rational& coefficient : threshold.polynomial) polynomial.push_back(ToString(coefficient));
-  return {{"low", ToString(threshold.low)},
-          {"high", ToString(threshold.high)},
-          {"word", WordToJson(threshold.word)},
-          {"polynomial", polynomial}};
-}
-
-// By the determinants of all words, and for which uniform friction they are positive.
-void AddWords(const ExactProblem& problem, Json& result) {
-  result["safe"] = !DecideSafety(problem).unsafe_word.has_value();
-  if (const auto threshold = FindSafetyThreshold(problem)) result["threshold"] = ThresholdToJson(*threshold);
-}
-
-// What can be said of a problem that is not safe since determinants vanish.
-void AddWeakSafety(const ExactProblem& problem, Json& result) {
-  const WeakSafety weak = DecideWeakSafety(problem);
-  result["weakly_safe"] = !weak.negative_word;
-  result["vanishing_words"] = weak.vanishing;
-  if (weak.negative_word) result["negative_word"] = WordToJson(*weak.negative_word);
-  result["limit"] = {{"safe", !weak.limit_word}};
-  if (weak.limit_word) result["limit"]["word"] = WordToJson(*weak.limit_word);
-  if (const auto threshold = FindLimitThreshold(problem)) {
-    result["limit"]["threshold"] = ThresholdToJson(*threshold);
-  }
-}
-
-// By the condition number of A after scaling: any number of contacts.
-void AddCondition(const ExactProblem& problem, Json& result) {
-  const auto bound = FindConditionBound(problem, FrictionWeights::kUniform);
-  if (!bound) return;
-  const auto mu = bound->SafeFriction();
-  result["condition"] = {{"number", ToString(Rational(bound->most / bound->least))},
-                         {"scaling", VectorToJson(bound->scaling)},
-                         {"mu", mu ? Json(ToString(*mu)) : Json()}};
-}
-
-std::string ThresholdText(const Json& threshold) {
-  return fmt::format("mu* in [{}, {}], by {}", threshold["low"].get<std::string>(),
-                     threshold["high"].get<std::string>(), WordText(threshold["word"]));
-}
-
-std::string WeakSafetyText(const Json& result) {
-  const Json& limit = result["limit"];
-  std::string text = fmt::format("{} words of determinant zero; ", result["vanishing_words"].get<int>());
-  text += result["weakly_safe"].get<bool>()
-              ? "none negative, so weakly safe: complete driving neither folds nor descends\n"
-              : fmt::format("negative: {}\n", WordText(result["negative_word"]));
-  text += limit["safe"].get<bool>()
-              ? "safe in the limit: A + eps I is safe for all small eps > 0\n"
-              : fmt::format("not safe in the limit: A + eps I is unsafe by {}\n", WordText(limit["word"]));
-  return text + (limit.contains("threshold")
-                     ? "uniform mu: safe in the limit below " + ThresholdText(limit["threshold"]) + "\n"
-                     : "safe in the limit for every uniform mu > 0\n");
-}
-
-std::string ConditionText(const Json& condition) {
-  const Json& mu = condition["mu"];
-  if (mu.is_null()) return "its condition alone: safe for every uniform mu\n";
-  return fmt::format("its condition alone: safe for uniform mu <= {}\n", mu.get<std::string>());
-}
-
-std::string SafetyText(const Json& result, bool has_words) {
-  const Json& safe = result["safe"];
-  std::string text = safe.is_null()     ? "undecided: too many words, and the condition does not tell\n"
-                     : safe.get<bool>() ? "safe: the determinants of all words are positive; complete driving "
-                                          "has no fold, and the published\n"
-                                          "algorithm under apex=suspended, ties apart, nothing to give up\n"
-                                        : "unsafe: the determinant of a word is zero or negative; where one is "
-                                          "negative, complete driving may\n"
-                                          "fold, and the published algorithm give up\n";
-  if (result.contains("threshold")) {
-    text += "uniform mu: safe below " + ThresholdText(result["threshold"]) + "\n";
-  } else if (has_words) {
-    text += "safe for every uniform mu > 0\n";
-  }
-  if (result.contains("limit")) text += WeakSafetyText(result);
-  if (has_words && !safe.get<bool>() && !result.contains("limit")) {
-    text += "weakly safe, safe in the limit: not looked at, too many words\n";
-  }
-  if (result.contains("condition")) text += ConditionText(result["condition"]);
-  return text;
-}
-
 int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
   RequireHandled(file.problem, o.file, "safety");
-  const bool has_words = HasFewWords(file.problem);
-  const auto by_condition = ConditionCertificate(file.problem);
-  Json result = {{"safe", by_condition ? Json(true) : Json()}};
-  if (has_words) AddWords(file.problem, result);
-  if (result["safe"] == false && HasFewWords(file.problem, kMaxWeakSafetyWords)) {
-    AddWeakSafety(file.problem, result);
-  }
-  AddCondition(file.problem, result);
+  const Json result = SafetyOf(file.problem);
   const bool decided = !result["safe"].is_null();
-  if (!o.output.empty() && decided)
-    WriteText(o.output, JsonText(has_words ? SafetyCertificate(file.problem) : *by_condition, 1) + "\n");
+  if (!o.output.empty() && decided) {
+    const bool few = HasFewWords(file.problem);
+    const Json certificate = few ? SafetyCertificate(file.problem) : *ConditionCertificate(file.problem);
+    WriteText(o.output, JsonText(certificate, 1) + "\n");
+  }
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  out << (o.json ? JsonText(result) + "\n" : Folded(SafetyText(result, has_words)));
+  out << (o.json ? JsonText(result) + "\n" : Folded(SafetyText(result)));
   return decided ? kExitDone : kExitUndecided;
 }
 
@@ -203,7 +111,7 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
 // one.
 std::optional<TouchingScene> ReadTouchingScene(const CertifyOptions& o, const ProblemFile& file) {
   if (!file.scene) return std::nullopt;
-  const Scene<Rational> scene = ParseScene(file.scene->dump(), o.file + ": scene").scene;
+  const Scene<Rational> scene = ParseScene(JsonText(*file.scene), o.file + ": scene").scene;
   if (const auto unfit = UnfitForBox(scene))
     throw InputError(o.file, "scene." + unfit->path, unfit->found, unfit->expected + " (--robust)");
   TouchingScene touching = Touching(scene);
@@ -245,19 +153,6 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   return all ? kExitDone : kExitUndecided;
 }
 
-// ": " and what a certificate proves about solutions, "" if it speaks of something else.
-std::string ProvedOfSolutions(std::string_view name) {
-  for (const Claim& claim : AllClaims())
-    if (claim.name == name && !claim.proves.empty()) return fmt::format(": {}", claim.proves);
-  return "";
-}
-
-// Where nothing that was run shows the claim; `why`: a text, or null.
-std::string UndecidedText(const std::string& claim, const Json& why) {
-  const std::string reason = why.is_string() ? fmt::format(" ({})", why.get<std::string>()) : "";
-  return fmt::format("undecided: nothing that was run shows '{}'{}\n", claim, reason);
-}
-
 void RequireAffordable(const Json& certificate, const std::string& file) {
   const CheckReport report = CheckCertificate(certificate, file);
   if (report.accepted) return;
@@ -265,6 +160,34 @@ void RequireAffordable(const Json& certificate, const std::string& file) {
       fmt::format("{}: found a problem whose certificate no checker would take, {}: try another claim, "
                   "or a smaller problem",
                   file, report.reason));
+}
+
+// The certificate stands in a file of its own.
+Json AnswerForPrograms(Json answer, const ProblemFile& file) {
+  const Json certificate = std::move(answer["certificate"]);
+  answer.erase("certificate");
+  answer["claim"] = certificate.is_object() ? certificate["claim"] : Json();
+  answer["assumptions"] = FailedAssumptions(file);
+  return answer;
+}
+
+std::string AnswerText(const Json& answer, const CertifyOptions& o) {
+  const bool certified = answer["certificate"].is_object();
+  std::string text = fmt::format("{}{}: {}\n", certified ? o.output + ": " : "",
+                                 answer["asked"].get<std::string>(), ClaimSentence(answer));
+  if (!certified) text += fmt::format("{} is not written: there is no certificate\n", o.output);
+  if (answer.contains("policies") && answer["policies"].contains("example")) {
+    const std::string policy = answer["policies"]["example"];
+    text += fmt::format("shown by stiction replay {}{}\n", ShellWord(o.file),
+                        policy == "paper" ? "" : " --policy " + ShellWord(policy));
+  }
+  return text;
+}
+
+// Proved, or refuted by its certificate: done. Refuted by a run, or so under some of the policies only: not so.
+int ExitOf(const Json& answer) {
+  if (answer["state"] == Name(ClaimState::kNotDecided)) return kExitUndecided;
+  return IsWholeCertificate(answer) ? kExitDone : kExitNotSo;
 }
 
 int RunCertify(const CertifyOptions& o) {
@@ -282,24 +205,18 @@ int RunCertify(const CertifyOptions& o) {
   ProgressBar bar;
   WantedClaim wanted = o;
   wanted.factors = file.factors && !o.coq ? &*file.factors : nullptr;
-  const Json certificate = CertificateOf(wanted, file.problem, o.file, Shown(bar));
+  const Json answer = CertificateOf(wanted, file.problem, o.file, Shown(bar));
   bar.Clear();
+  const Json& certificate = answer["certificate"];
   const bool certified = certificate.is_object();
-  if (certified) RequireAffordable(certificate, o.file);
-  if (certified)
+  if (certified) {
+    RequireAffordable(certificate, o.file);
     WriteText(o.output, o.coq ? CoqText(certificate, file.problem, o.file) : JsonText(certificate, 1) + "\n");
-  const Json claim = certified ? certificate["claim"] : Json("undecided");
+  }
   // With the certificate itself on standard output, nothing else may stand there.
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
-  if (o.json) {
-    out << JsonText({{"claim", claim}, {"assumptions", FailedAssumptions(file)}}) << "\n";
-  } else if (certified) {
-    const std::string name = claim.get<std::string>();
-    out << Folded(fmt::format("{}: {}{}\n", o.output, name, ProvedOfSolutions(name)));
-  } else {
-    out << Folded(UndecidedText(o.claim, certificate));
-  }
-  return certified ? kExitDone : kExitUndecided;
+  out << (o.json ? JsonText(AnswerForPrograms(answer, file)) + "\n" : AsTyped(Folded(AnswerText(answer, o))));
+  return ExitOf(answer);
 }
 
 struct CheckOptions {
@@ -308,7 +225,9 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string ValueText(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string ValueText(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : JsonText(value);
+}
 
 std::string ValuesText(const Json& values) {
   std::string text;
@@ -364,6 +283,10 @@ std::vector<AllowedValue> ClaimChoices() {
 
 const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
+  verb.footer =
+      "A claim is proved; or disproved, by the certificate of its negation (exit 0), or by a run that ends "
+      "otherwise, "
+      "as where it holds under some of several policies only (exit 1); or not decided (exit 3).";
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "certificate to write; - is standard output");
   verb.Option("--claim", o.claim, "what to certify, or its negation if that holds").Choices(ClaimChoices());
@@ -387,11 +310,15 @@ const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
               "what was certified; with --all, all solutions; with --safe, safety; with --robust, radii; the "
               "certificate itself where -o is -",
               R"(
-      {claim: claim | "undecided", assumptions: [assumption]} |
+      {asked: claim, state: "proved" | "disproved" | "not decided", reason?: text,
+       claim: claim | null,  // of the certificate that was written
+       policies?: {asked: integer, so: integer, certified: integer, otherwise: counters, example?: text},
+       assumptions: [assumption]} |
       {complete: truth, words: [{modes: [mode], f: [exact], unique: truth}], distinct_witnesses: integer,
        programs: integer  // linear programs
       } |
-      {safe: truth | null,  // null: undecided
+      {safe: truth | null,  // null: not decided
+       by?: "words" | "condition",
        condition?: {number: exact, scaling: [exact], mu: exact | null}, threshold?: threshold,
        weakly_safe?: truth, vanishing_words?: integer, negative_word?: [mode],
        limit?: {safe: truth, word?: [mode], threshold?: threshold}} |

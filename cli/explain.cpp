@@ -38,12 +38,17 @@ const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
       survey: object,  // an entry of survey --json, without its file
       rank?: integer,
       methods?: [{method: method, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
-                  period?: integer}],
+                  period?: integer, unique_accelerations?: false}],
+      solve?: {method: text, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
+               period?: integer, unique_accelerations?: false},  // what `solve` says by default
       policies?: {all: integer, outcomes: {*: integer},
-                  loops: {outcome: outcome, start: integer, period: integer, policy: text, proved: truth} | null},
+                  loops: {outcome: outcome, start: integer, period: integer, policy: text, proved: truth,
+                          kind: "states" | "box", reason?: text} | null},
       solutions?: {complete: truth, modes: [[text]], unique: truth},
+      safety?: object,  // what certify --safe --json prints
       safe_below?: exact | null, radius?: exact | null,
-      claims?: [{claim: text, meaning: text, certificate: text | null, command: text}],
+      claims?: [{claim: text, meaning: text, state: "proved" | "disproved" | "not decided", says: text,
+                 certificate: text | null, command: text}],
       next: [{command: text, shows: text}]})");
   AddLimits(verb, o.limits);
 });

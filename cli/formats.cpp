@@ -9,6 +9,7 @@
 
 #include "cli/command_line.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "search/campaign.h"
 #include "search/under_test/reproducer.h"
@@ -51,8 +52,9 @@ int Import(const FormatsVerb& o) {
   WriteText(o.output, std::visit([](const auto& file) { return Print(file); }, read));
   const Asymmetry asymmetry = LargestAsymmetry(problem);
   SayWhatWasDone(o.output, o.json,
-                 fmt::format("{}: {} contacts, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
-                             problem.contacts.size(), problem.dimension, ToDouble(asymmetry.difference)),
+                 fmt::format("{}: {}, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
+                             Counted(static_cast<std::int64_t>(problem.contacts.size()), "contact"),
+                             problem.dimension, ToDouble(asymmetry.difference)),
                  {{"written", Json::array({o.output})},
                   {"contacts", problem.contacts.size()},
                   {"dimension", problem.dimension},
@@ -82,7 +84,7 @@ int Export(const FormatsVerb& o) {
   SparseProblem problem = ReadSparseProblem(o.file);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
-  std::string text = fmt::format("{}: {} numbers rounded", o.output, report.rounded);
+  std::string text = fmt::format("{}: {} rounded", o.output, Counted(report.rounded, "number"));
   if (report.rounded > 0)
     text += fmt::format(", by {:.2g} of their value at most", ToDouble(report.largest_change));
   SayWhatWasDone(o.output, o.json, text + "\n",

@@ -13,7 +13,9 @@
 #include "certify/exact/published_space.h"
 #include "cli/command_line.h"
 #include "cli/help.h"
+#include "cli/narration/outcome_text.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/units/finish.h"
@@ -63,8 +65,9 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
   simple.expect = {{options.policies.size() > 1 ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
   WriteText(o.output, Print(simple));
   (o.output == "-" ? std::cerr : std::cout)
-      << Folded(fmt::format("{}: {} contacts, {} choices; was {}, {}. Tried {}, took {}.\n", Name(options.keep),
-                            minimized.candidate.contacts, minimized.candidate.choices.size(),
+      << Folded(fmt::format("{}: {}, {}; was {}, {}. Tried {}, took {}.\n", Name(options.keep),
+                            Counted(minimized.candidate.contacts, "contact"),
+                            Counted(static_cast<std::int64_t>(minimized.candidate.choices.size()), "choice"),
                             candidate.contacts, candidate.choices.size(), minimized.tried, minimized.accepted));
   return kExitDone;
 }
@@ -78,6 +81,13 @@ void RequireForSpace(const MinimizeVerb& o, const Policy& policy) {
   if (o.keep.ends_with(":*")) refuse("--keep ", o.keep);
   if (o.keep_signature) refuse("--keep-signature", "");
   if (o.as_scene) refuse("--as-scene", "");
+}
+
+// How it loops, as `replay` says it.
+std::string EndOfMinimized(const ExactProblem& problem, const PublishedOptions& published) {
+  const std::string under = fmt::format("under {}, ", PolicyName(published.policy));
+  if (problem.dimension == 3) return under + Describe(RunIntervalsInSpace(problem, published));
+  return under + Describe(RunExact(problem, published).verdict);
 }
 
 int RunMinimize(const MinimizeVerb& o) {
@@ -121,17 +131,22 @@ int RunMinimize(const MinimizeVerb& o) {
     return Json{{"contacts", s.contacts}, {"rows", s.rows}, {"nonzeros", s.nonzeros}, {"bits", s.bits}};
   };
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
+  const std::string loop =
+      IsLoop(options.keep) ? EndOfMinimized(file.problem, published) : "";  // under the first policy
   if (o.json) {
     out << JsonText({{"keep", keep},
                      {"before", size(before)},
                      {"after", size(after)},
                      {"candidates", minimized.candidates},
-                     {"accepted", minimized.accepted}})
+                     {"accepted", minimized.accepted},
+                     {"says", loop}})
         << "\n";
   } else {
-    out << Folded(fmt::format("{}: {} contacts, {} nonzeros, {} bits; was {}, {}, {}. Tried {}, took {}.\n",
-                              keep, after.contacts, after.nonzeros, after.bits, before.contacts,
-                              before.nonzeros, before.bits, minimized.candidates, minimized.accepted));
+    out << Folded(fmt::format("{}: {}, {}, {}; was {}, {}, {}. Tried {}, took {}.\n", keep,
+                              Counted(after.contacts, "contact"), Counted(after.nonzeros, "nonzero"),
+                              Counted(after.bits, "bit"), before.contacts, before.nonzeros, before.bits,
+                              minimized.candidates, minimized.accepted) +
+                  (loop.empty() ? "" : loop + "\n"));
   }
   return kExitDone;
 }
@@ -153,7 +168,8 @@ const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
             "keep it a scene that can be built: of a problem with the choices of a generator");
   AddPolicyOption(verb, o.policy, Grid::kRefused);
   verb.Prints(o.json, "how much smaller a problem has become; the problem itself where -o is -",
-              "{keep: text, before: size, after: size, candidates: integer, accepted: integer} | problem");
+              "{keep: text, before: size, after: size, candidates: integer, accepted: integer,\n"
+              " says: text  // how it loops; empty of what does not\n} | problem");
   AddLimits(verb, o.limits);
 });
 

@@ -79,13 +79,14 @@ ShowFindings Reading(ProgressBar& bar, const std::string& file) {
   const std::string which = file.empty() ? "" : file + ": ";
   return [&bar, which](std::int64_t done, std::int64_t of) {
     bar.ShowSome(done, of,
-                 [&] { return fmt::format("{}{} of {} findings read", which, Grouped(done), Grouped(of)); });
+                 [&] { return fmt::format("{}{} of {} read", which, Grouped(done), Counted(of, "finding")); });
   };
 }
 
 // ---- The log ---------------------------------------------------------------------------------
 
 void NightLog::Show(const SearchProgress& progress) {
+  if (!problems_) problems_ = progress.problems_before;
   news_.insert(news_.end(), progress.news.begin(), progress.news.end());
   if (bar_.IsShown()) {
     PrintNews();
@@ -98,6 +99,7 @@ void NightLog::Show(const SearchProgress& progress) {
 }
 
 void NightLog::Finish(const SearchProgress& progress) {
+  if (!problems_) problems_ = progress.problems_before;
   news_.insert(news_.end(), progress.news.begin(), progress.news.end());
   bar_.Clear();
   if (bar_.IsShown()) PrintNews();
@@ -112,13 +114,14 @@ void NightLog::PrintNews() {
   for (std::size_t i = 0; i < std::min(news_.size(), kNewsAtOnce); ++i)
     fmt::print(stderr, "{} {}\n", time, LineOf(news_[i]));
   if (news_.size() > kNewsAtOnce)
-    fmt::print(stderr, "{} and {} more new groups\n", time, news_.size() - kNewsAtOnce);
+    fmt::print(stderr, "{} and {} more\n", time,
+               Counted(static_cast<std::int64_t>(news_.size() - kNewsAtOnce), "new group"));
   news_.clear();
 }
 
 void NightLog::Print(const SearchProgress& progress) {
-  fmt::print(stderr, "{} {}; since {:.0f} s ago {} problems, {}\n", TimeOfDay(), Line(progress),
-             progress.seconds - last_, Grouped(progress.problems - problems_), NewsText(news_));
+  fmt::print(stderr, "{} {}; since {:.0f} s ago {}, {}\n", TimeOfDay(), Line(progress),
+             progress.seconds - last_, Counted(progress.problems - *problems_, "problem"), NewsText(news_));
   std::fflush(stderr);
   last_ = progress.seconds;
   problems_ = progress.problems;
@@ -136,12 +139,15 @@ double NightLog::Fraction(const SearchProgress& progress) const {
 }
 
 std::string NightLog::Line(const SearchProgress& progress) const {
+  if (progress.only_finishes)
+    return fmt::format("{} finished, {} to finish", Counted(progress.finished, "finding"),
+                       Grouped(progress.pending));
   const double fraction = Fraction(progress);
+  const auto now = static_cast<double>(progress.problems - progress.problems_before);
   std::string text = fmt::format(
-      "{} problems, {} a second, {} findings in {} groups, {} to finish", Grouped(progress.problems),
-      Grouped(
-          static_cast<std::int64_t>(static_cast<double>(progress.problems) / std::max(progress.seconds, 1e-9))),
-      Grouped(progress.findings), Grouped(progress.groups), Grouped(progress.pending));
+      "{}, {} a second, {} in {}, {} to finish", Counted(progress.problems, "problem"),
+      Grouped(static_cast<std::int64_t>(now / std::max(progress.seconds, 1e-9))),
+      Counted(progress.findings, "finding"), Counted(progress.groups, "group"), Grouped(progress.pending));
   if (progress.left_out > 0) text += fmt::format(" and {} left out", Grouped(progress.left_out));
   if (progress.time.Total() > 0 && progress.time.finishing > 0)
     text += fmt::format(", finishing {} % of the time", 100 * progress.time.finishing / progress.time.Total());

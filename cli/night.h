@@ -44,9 +44,9 @@ class NightLog {
 
   std::optional<double> minutes_;
   ProgressBar bar_;
-  double last_ = 0;            // seconds, of the line before
-  std::int64_t problems_ = 0;  // then
-  std::vector<Finding> news_;  // since then
+  double last_ = 0;                       // seconds, of the line before
+  std::optional<std::int64_t> problems_;  // then
+  std::vector<Finding> news_;             // since then
 };
 
 // Runs a shell command for a finding. It gets the finding as JSON on standard input, and STICTION_SIGNATURE,

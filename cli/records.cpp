@@ -128,7 +128,7 @@ OwnSearch OwnSearchOf(const Store& store) {
     own.bests.push_back({campaign.objective, best.generator, best.mu, best.value, best.contacts});
   const std::vector<Task> schedule = Schedule(campaign);
   for (std::int64_t unit = 0; unit < store.Units().Count(); ++unit)
-    own.problems += UnitProblems(campaign, TaskOf(schedule, unit));
+    own.problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
   return own;
 }
 

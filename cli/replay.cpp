@@ -21,6 +21,7 @@
 #include "cli/playable.h"
 #include "cli/shared.h"
 #include "cli/words.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/rounded.h"
@@ -71,7 +72,8 @@ std::string ToldForPeople(const ReplayOptions& o, const ProblemFile& file, const
   return std::visit(
       [&](const auto& answer) {
         const std::string reading = o.method == "baraff" ? "policy " + o.policy : "method " + o.method;
-        return fmt::format("{}: {} contacts{}, {}, {}\n{}{}{}", file.name, file.problem.contacts.size(),
+        return fmt::format("{}: {}{}, {}, {}\n{}{}{}", file.name,
+                           Counted(static_cast<std::int64_t>(file.problem.contacts.size()), "contact"),
                            file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
                            o.step ? ProblemText(file.problem, o.as()) : "",
                            o.step ? narration.steps : narration.table, WholeEnd(answer, solution));
@@ -132,15 +134,16 @@ void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const 
     Still& still = stills.emplace_back();
     for (const Json& f : pivot["f"])
       still.forces.push_back(f.is_string() ? ToDouble(*ParseRational(f.get<std::string>())) : f.get<double>());
-    still.caption = fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", told["group"].dump(),
-                                told["label"].get<std::string>(), told["event"].get<std::string>());
+    still.caption =
+        fmt::format("{} {}, {}: {}", o.method == "baraff" ? "drive" : "stage", JsonText(told["group"]),
+                    told["label"].get<std::string>(), told["event"].get<std::string>());
   }
   if (stills.empty() || stills.size() > kMostStills)
     throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
                      fmt::format("1 to {}; --html makes a page of more", kMostStills));
-  const std::string title =
-      loops ? fmt::format("{}: these {} drives, again and again", replay.file.name, run.replay["period"].dump())
-            : fmt::format("{}: {}", replay.file.name, run.end);
+  const std::string title = loops ? fmt::format("{}: {}, again and again", replay.file.name,
+                                                Counted(run.replay["period"].get<std::int64_t>(), "drive"))
+                                  : fmt::format("{}: {}", replay.file.name, run.end);
   WriteText(o.svg, MovingPicture(replay.picture, title, stills, kSeconds));
 }
 
@@ -248,7 +251,8 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   } else {
     PrintOutcomes(o, grid, outcomes);
     if (!unexpected.empty())
-      Tell("{}: {} policies\n", file.expect.empty() ? "not solved" : "not as expected", unexpected.size());
+      Tell("{}: {}\n", file.expect.empty() ? "not solved" : "not as expected",
+           Counted(static_cast<std::int64_t>(unexpected.size()), "policy"));
   }
   return unexpected.empty() ? kExitDone : kExitNotSo;
 }

@@ -45,7 +45,8 @@ struct ReportVerb {
 ShowWriting Writing(ProgressBar& bar) {
   return [&bar](std::int64_t findings, std::int64_t of, std::int64_t files) {
     bar.ShowSome(findings, of, [&] {
-      return fmt::format("{} of {} findings written, {} files", Grouped(findings), Grouped(of), Grouped(files));
+      return fmt::format("{} of {} written, {}", Grouped(findings), Counted(of, "finding"),
+                         Counted(files, "file"));
     });
   };
 }
@@ -116,8 +117,8 @@ int CompareStores(const ReportVerb& o) {
   files.insert(files.begin(), o.store);
   if (TestsSolver(Store::OpenToRead(o.store), o.store)) return CompareTested(o, files);
   if (files.size() == 2) return CompareCampaigns(o);
-  throw InputError(fmt::format("report: found {} stores, expected two; more only of searches that test solvers",
-                               files.size()));
+  throw InputError(fmt::format("report: found {}, expected two; more only of searches that test solvers",
+                               Counted(static_cast<std::int64_t>(files.size()), "store")));
 }
 
 // Of fields of a campaign, by their names.

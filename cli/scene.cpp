@@ -99,7 +99,8 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
     const std::string name = NumberedFile(o.output, i, problems.size());
     WriteText(name, Print(problems[i]));
     const auto many = problem.contacts.size();
-    text += fmt::format("{}: {} contacts, {} rows\n", name, many, problem.rows());
+    text += fmt::format("{}: {}, {}\n", name, Counted(static_cast<std::int64_t>(many), "contact"),
+                        Counted(problem.rows(), "row"));
     written.push_back({{"file", name}, {"contacts", many}, {"rows", problem.rows()}});
   }
   if (model.islands.empty()) text += "no contacts and no joints: nothing to solve\n";
@@ -266,7 +267,7 @@ class SimulationWriter {
 void ShowStep(ProgressBar& bar, std::int64_t done, std::int64_t steps, double time) {
   bar.ShowSome(done, steps, [&] {
     const double left = bar.Seconds() * static_cast<double>(steps - done) / static_cast<double>(done);
-    return fmt::format("t = {:.6g} s, {} of {} steps, {:.0f} s left", time, Grouped(done), Grouped(steps),
+    return fmt::format("t = {:.6g} s, {} of {}, {:.0f} s left", time, Grouped(done), Counted(steps, "step"),
                        left);
   });
 }
@@ -309,8 +310,8 @@ std::string MotionText(const SceneIn<Kind, double>& scene, std::vector<BodyMotio
   std::erase_if(motions, [](const BodyMotion& motion) { return motion.word == "rests"; });
   std::stable_sort(motions.begin(), motions.end(),
                    [](const BodyMotion& one, const BodyMotion& other) { return one.speed > other.speed; });
-  std::string text = fmt::format("in the last {:.6g} s {} of {} bodies that can move rest\n", seconds,
-                                 all - motions.size(), all);
+  std::string text = fmt::format("in the last {:.6g} s {} of {} that can move rest\n", seconds,
+                                 all - motions.size(), Counted(static_cast<std::int64_t>(all), "body"));
   for (std::size_t i = 0; i < std::min(motions.size(), kMostTold); ++i) {
     text += fmt::format("  {} {}: moved by {:.3g} m, {:.3g} m/s at last\n", NameOfBody(scene, motions[i].body),
                         motions[i].word, motions[i].moved, motions[i].speed);

@@ -217,7 +217,7 @@ const std::vector<NamedShape>& NamedShapes() {
       {"outcome", OneOf(kOutcomeNames) + R"( | "no-solution")", ""},
       {"arithmetic", OneOf(kArithmeticNames), ""},
       {"rung", OneOf(kRungNames), "the arithmetic that decided"},
-      {"method", OneOfRows(AllMethods()), ""},
+      {"method", OneOfRows(AllMethods()) + R"( | "auto")", "auto: of a problem without rows"},
       {"claim", OneOfRows(AllClaims()), ""},
       {"law", OneOf(std::array{Name(FrictionLaw::kBaraff), Name(FrictionLaw::kCoulomb)}), ""},
       {"mode", OneOfModes(), ""},

@@ -32,6 +32,7 @@
 #include "reports/text/text_report.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/adversary/parents.h"
+#include "search/families.h"
 #include "search/generators/exponential.h"
 #include "search/summary.h"
 #include "search/testimony.h"
@@ -114,6 +115,14 @@ void Set(const FieldOf<Campaign>& field, const Given& given, Campaign& campaign)
   });
 }
 
+// A solver that says nothing costs no more than the search would.
+SolverPatience PatienceOf(const SearchVerb& verb) {
+  constexpr double kLeast = 5;
+  const double budget = 60 * verb.minutes.value_or(kDefaultMinutes);
+  return {.stopped = [&interrupted = Interruption()] { return interrupted.load(); },
+          .greeting = std::min(kGreetingSeconds, std::max(kLeast, budget))};
+}
+
 Campaign CampaignOf(const SearchVerb& verb) {
   Campaign campaign = verb.campaign.empty() ? Campaign{} : ReadCampaign(verb.campaign);
   const CampaignWords& o = verb.words;
@@ -154,7 +163,11 @@ Campaign CampaignOf(const SearchVerb& verb) {
   for (const std::string& source : o.parents) {
     for (Candidate& parent : ParentsFrom(source, campaign)) campaign.parents.push_back(std::move(parent));
   }
-  if (!verb.solver.empty()) campaign.solver = SolverProcess(SolverCommand(verb.solver)).about();
+  if (!verb.solver.empty()) {
+    const SolverProcess solver(SolverCommand(verb.solver), PatienceOf(verb));
+    campaign.solver = solver.about();
+    campaign.no_leaks |= solver.KeepsMemory();
+  }
   RequireConsistent(campaign);
   return campaign;
 }
@@ -163,8 +176,9 @@ Campaign CampaignOf(const SearchVerb& verb) {
 
 // For the end of a search, which knows the file of a solver under test, and for `status`.
 std::string SummaryOf(const Store& store, const std::string& file, const std::string& solver = kAnySolverFile) {
-  if (!CampaignOf(store.identity(), file).objective.empty()) return OptimizedText(store, file);
-  return TestsSolver(store, file) ? SolverText(store, file, solver) : SummaryText(store, file);
+  const std::string families = Folded(FamiliesText(store, file));
+  if (!CampaignOf(store.identity(), file).objective.empty()) return OptimizedText(store, file) + families;
+  return (TestsSolver(store, file) ? SolverText(store, file, solver) : SummaryText(store, file)) + families;
 }
 
 // Grave findings are an alarm.
@@ -173,9 +187,9 @@ int ExitOf(const Store& store, const std::string& file) {
   for (const Finding& finding : store.Findings()) grave += IsGrave(finding.kind);
   if (grave == 0) return kExitDone;
   fmt::print(std::cerr,
-             "stiction: {}: holds {} grave findings: methods that prove disagree, or a safe problem cycles, "
+             "stiction: {}: holds {}: methods that prove disagree, or a safe problem cycles, "
              "which ties alone can make\n",
-             file, grave);
+             file, Counted(grave, "grave finding"));
   return kExitGrave;
 }
 
@@ -227,23 +241,69 @@ std::string RoundedText(const Campaign& campaign, std::optional<std::int64_t> as
   if (!asked) return "";
   const std::vector<Task> schedule = Schedule(campaign);
   std::int64_t problems = 0;
-  for (std::int64_t unit = 0; unit < UnitsFor(campaign, *asked); ++unit)
-    problems += UnitProblems(campaign, TaskOf(schedule, unit));
+  const std::int64_t units = UnitsFor(campaign, *asked);
+  for (std::int64_t unit = 0; unit < units; ++unit)
+    problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
   if (problems == *asked) return "";
   return fmt::format(
-      "; {} problems were asked for, {} fill whole units; the same command with --problems above {} goes on",
-      Grouped(*asked), Grouped(problems), problems);
+      "; {} {} asked for, {} fill whole units; the same command with --problems above {} goes on",
+      Counted(*asked, "problem"), *asked == 1 ? "was" : "were", Grouped(problems), problems);
+}
+
+// Whether the words of the command name a store and no search: then it is the search of the store.
+bool IsOfStore(const SearchVerb& o) {
+  return !o.store.empty() && o.campaign.empty() && o.words == CampaignWords{} &&
+         std::filesystem::is_regular_file(o.store);
+}
+
+Campaign CampaignToRun(SearchVerb& o) {
+  if (o.store.empty() && o.finish) o.store = kUsualStore;
+  if (o.finish) return CampaignToFinish(o);
+  if (IsOfStore(o)) return CampaignOf(Store::IdentityIn(o.store), o.store);
+  const Campaign campaign = CampaignOf(o);
+  if (o.store.empty()) {
+    const bool is_older =
+        std::filesystem::is_regular_file(kUsualStore) && Store::IdentityIn(kUsualStore) == IdentityOf(campaign);
+    o.store = is_older ? kUsualStore : StoreFor(IdentityOf(AsBegun(campaign)));
+  }
+  return AsBegunIn(o.store, campaign);
+}
+
+// How the search ended, and whether there is more to do.
+std::string EndText(const SearchReport& report, const SearchVerb& o) {
+  const SearchProgress& progress = report.progress;
+  switch (report.end) {
+    case SearchEnd::kInterrupted:
+      return "Interrupted; everything done so far is stored. The same command goes on from here.";
+    case SearchEnd::kTimeUp:
+      return fmt::format(
+          "Out of time after {:.0f} s; everything done so far is stored. The same command goes on "
+          "from here.",
+          progress.seconds);
+    case SearchEnd::kLeft:
+      return fmt::format("All problems were tried. Not finished: {}. --finish finishes them.",
+                         Counted(progress.pending + progress.left_out, "finding"));
+    case SearchEnd::kDone:
+      break;
+  }
+  if (o.finish)
+    return progress.finished > 0 ? "Finished: no finding waits." : "Finished: there was no finding to finish.";
+  const bool before = progress.problems == progress.problems_before;
+  return fmt::format(
+      "Finished: all problems that were asked for {} tried. --problems with a larger number goes on.",
+      before ? "had been" : "were");
 }
 
 int RunSearchVerb(const SearchVerb& asked) {
   SearchVerb o = asked;
-  if (o.store.empty() && o.finish) o.store = kUsualStore;
-  const Campaign campaign = o.finish ? CampaignToFinish(o) : CampaignOf(o);
-  if (o.store.empty()) o.store = StoreFor(IdentityOf(campaign));
+  const Campaign campaign = CampaignToRun(o);
   SearchOptions options = OptionsOf(o);
-  options.started = [&] {
-    fmt::print(std::cerr, "{} seed {}, {} threads, shard {}, store {}{}\n", TimeOfDay(), campaign.seed,
-               options.threads, o.shard, o.store, RoundedText(campaign, o.problems));
+  options.started = [&](const SearchProgress& progress) {
+    const std::int64_t before = progress.problems_before;
+    fmt::print(std::cerr, "{} seed {}, {}, shard {}, store {}{}{}\n", TimeOfDay(), campaign.seed,
+               Counted(options.threads, "thread"), o.shard, o.store,
+               before > 0 ? fmt::format("; it holds {}, counted too", Counted(before, "problem")) : "",
+               RoundedText(campaign, o.problems));
   };
   NightLog log(options.minutes);
   std::int64_t untold = 0;
@@ -261,19 +321,15 @@ int RunSearchVerb(const SearchVerb& asked) {
       });
   log.Finish(report.progress);
   if (untold > 0)
-    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {} findings\n", TimeOfDay(),
-               untold);
+    fmt::print(std::cerr, "{} --on-finding: interrupted before the command of {}\n", TimeOfDay(),
+               Counted(untold, "finding"));
   const Store store = Store::OpenToRead(o.store);
   if (o.json) {
     std::cout << JsonText(SummaryToJson(store)) << "\n";
   } else {
     std::cout << SummaryOf(store, o.store, o.solver);
   }
-  if (report.end == SearchEnd::kInterrupted) {
-    fmt::print(std::cerr,
-               "{} Interrupted; everything done so far is stored. The same command goes on from here.\n",
-               TimeOfDay());
-  }
+  fmt::print(std::cerr, "{} {}\n", TimeOfDay(), EndText(report, o));
   return ExitOf(store, o.store);
 }
 
@@ -309,9 +365,9 @@ std::string Changes(const Look& before, const Look& now, std::int64_t most) {
         fmt::format("{}{}{}", groups > 1 ? ", " : ": ", signature, known.empty() ? "" : " (" + known + ")");
   }
   if (groups > most) names += ", ...";
-  return fmt::format("{} runs, {} more; {} groups, {} new{}", Grouped(now.problems),
-                     Grouped(now.problems - before.problems),
-                     Grouped(static_cast<std::int64_t>(now.signatures.size())), Grouped(groups), names);
+  return fmt::format(
+      "{}, {} more; {}, {} new{}", Counted(now.problems, "run"), Grouped(now.problems - before.problems),
+      Counted(static_cast<std::int64_t>(now.signatures.size()), "group"), Grouped(groups), names);
 }
 
 // On a terminal: all of it anew, with what is new above the summary, cut to the height.
@@ -410,7 +466,7 @@ ProblemFile StoredFile(const ProblemVerb& o) {
   const std::int64_t unit = UnitOf(o);
   if (!store.Units().Contains(unit))
     throw InputError(fmt::format("{}: found unit {}, expected one that the store holds", o.store, unit));
-  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), unit));
+  const std::int64_t problems = UnitProblems(campaign, TaskOf(Schedule(campaign), unit), unit);
   if (*o.index >= problems) {
     throw InputError(
         fmt::format("{}: found index {} in unit {}, expected 0 to {}", o.store, *o.index, unit, problems - 1));
@@ -512,9 +568,11 @@ void TakeWhatIsSound(Store& merged, const std::vector<std::string>& stores) {
       ++refused;
     }
   }
-  fmt::print(std::cerr, "left out in all: {} rows, {} whole stores\n", left_out, refused);
+  fmt::print(std::cerr, "left out in all: {}, {}\n", Counted(static_cast<std::int64_t>(left_out), "row"),
+             Counted(static_cast<std::int64_t>(refused), "whole store"));
   if (refused == stores.size())
-    throw InputError(fmt::format("merge: found {} stores of which none can be read, expected one", refused));
+    throw InputError(fmt::format("merge: found {} of which none can be read, expected one",
+                                 Counted(static_cast<std::int64_t>(refused), "store")));
 }
 
 int RunMerge(const MergeVerb& o) {

@@ -223,7 +223,7 @@ std::string Filled(std::string_view text, const std::map<std::string, std::strin
 
 int RunSlurm(const SlurmVerb& o) {
   namespace fs = std::filesystem;
-  const Campaign campaign = ReadCampaign(o.campaign);
+  const Campaign campaign = AsBegun(ReadCampaign(o.campaign));
   RequireConsistent(campaign);
   const std::int64_t units = UnitsFor(campaign, o.problems);
   if (units < o.shards) {

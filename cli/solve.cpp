@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,17 +18,21 @@
 #include <vector>
 
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "certify/request/solve_sparse.h"
 #include "cli/command_line.h"
+#include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/program.h"
 #include "cli/shared.h"
+#include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
+#include "corpus/stop_reading.h"
 
 namespace stiction {
 namespace {
@@ -77,6 +82,7 @@ std::string WithinText(const Json& result) {
 }
 
 std::string SolvedSentence(const Json& result, const Solution& solution) {
+  if (result["f"].empty()) return "solved: there are no contacts, and no forces are asked for";
   const std::string law = LawOf(result);
   if (result.contains("bound")) return WithinText(result);
   if (std::holds_alternative<ExactAnswer>(solution.answer))
@@ -86,7 +92,7 @@ std::string SolvedSentence(const Json& result, const Solution& solution) {
   const Errors<double>& errors = *std::get<InexactAnswer>(solution.answer).errors;
   return fmt::format(
       "solved: these forces meet every condition, {}, but for errors of at most {:.2g} in accelerations and "
-      "{:.2g} in forces, in units of what acts at each contact",
+      "{:.2g} in forces: they are exact where b and mu differ by so much, and A by eight roundings",
       law, errors.acceleration, errors.force);
 }
 
@@ -98,13 +104,10 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
   const std::string reason = result.contains("reason") ? ": " + result["reason"].get<std::string>() : "";
   if (outcome == "solved") return SolvedSentence(result, solution);
   if (outcome == "no-solution") return "no-solution: no forces meet all conditions, proved" + reason;
-  if (result.contains("period") && !reason.empty())
-    return fmt::format("{}: from the state after {} drives on {}, the same steps every {} drives, for ever",
-                       outcome, result["start"].dump(), reason.substr(2), result["period"].dump());
-  if (result.contains("period"))
-    return fmt::format("{}: {}the state after {} drives recurs {} drives later{}", outcome,
-                       proved ? "" : "after rounding, ", result["start"].dump(), result["period"].dump(),
-                       proved ? ", for ever" : "");
+  if (result.contains("period")) {
+    const auto describe = [proved](const auto& answer) { return EndText(answer, proved); };
+    return std::visit(describe, solution.answer);
+  }
   if (outcome == "ray") return "ray: a step has no end, the forces could grow for ever along `ray`" + reason;
   if (outcome == "singular")
     return "singular: no direction keeps what the method keeps, it cannot go on" + reason;
@@ -114,7 +117,7 @@ std::string OutcomeSentence(const Json& result, const Solution& solution) {
 // "1/3", "0.5", "[0.49, 0.51]".
 std::string NumberText(const Json& x, FractionText fractions) {
   if (x.is_array()) return fmt::format("[{}, {}]", NumberText(x[0], fractions), NumberText(x[1], fractions));
-  if (!x.is_string()) return x.dump();
+  if (!x.is_string()) return JsonText(x);
   const auto exact = ParseRational(x.get<std::string>());
   return exact ? Text(*exact, fractions) : x.get<std::string>();
 }
@@ -148,7 +151,7 @@ std::string FieldsText(const Json& object) {
   std::string text;
   for (const auto& [key, value] : object.items())
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", WithBlanks(key),
-                        value.is_string() ? value.get<std::string>() : value.dump());
+                        value.is_string() ? value.get<std::string>() : JsonText(value));
   return text;
 }
 
@@ -170,7 +173,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
   Tell("{}\n", OutcomeSentence(result, solution));
   std::cout << VariablesTable(problem, result, fractions);
   if (result.contains("unique_accelerations"))
-    Tell("another solution with other accelerations is known; this is the one at rest\n");
+    Tell("another solution with other accelerations is known; this one moves less, or rests\n");
   for (const auto& [key, value] : result.items()) {
     const bool told = key == "outcome" || key == "start" || key == "period" || key == "f" || key == "a" ||
                       key == "ray" || key == "reason" || key == "unique_accelerations";
@@ -178,7 +181,7 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
     const std::string text = key == "assumptions" ? AssumptionsText(value, o.file, problem.rows())
                              : value.is_object()  ? FieldsText(value)
                              : value.is_string()  ? value.get<std::string>()
-                                                  : value.dump();
+                                                  : JsonText(value);
     Tell("{:18}  {}\n", WithBlanks(key), AsTyped(text));
   }
 }
@@ -186,16 +189,14 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
 using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
 // A stays as it is.
-Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem) {
-  std::atomic<bool> stopped = false;
-  const std::jthread timer = StopAfter(o.seconds, stopped);
+Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem, const std::atomic<bool>& stopped) {
   SolveOptions options = o.options;
   options.limits.stop = &stopped;
   const Solution solution{SolveSparse(problem, options, o.method)};
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
     result["why"] = problem.factors
-                        ? fmt::format("{} rows in factors: over doubles, A is not formed", problem.rows())
+                        ? Counted(problem.rows(), "row") + " in factors: over doubles, A is not formed"
                         : fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
   result["assumptions"] = FailedAssumptions(problem);
   if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
@@ -214,14 +215,14 @@ std::variant<ProblemFile, SparseProblem> ReadFor(const SolveVerb& o) {
                                kMostDenseRows, dense));
 }
 
-Answered SolveOne(const SolveVerb& o) {
+Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
   const auto read = ReadFor(o);
-  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large);
+  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large, stopped);
   const auto& file = std::get<ProblemFile>(read);
   SolveRequest request = RequestOf(o, file.problem, o.file);
-  request.factors = file.factors ? &*file.factors : nullptr;
-  std::atomic<bool> stopped = false;
-  const std::jthread timer = StopAfter(o.seconds, stopped);
+  // `auto` takes those of a scene for nothing that it would not do without.
+  const auto factors = o.method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   request.options.limits.stop = &stopped;
   const Solution solution = SolveAsked(file.problem, request, o.file);
   Json result = SolutionToJson(solution, file.problem.dimension);
@@ -232,24 +233,54 @@ Answered SolveOne(const SolveVerb& o) {
   return {result, ExitOf(solution.outcome())};
 }
 
-// Each answer of many files has the name of its file, and one that is refused does not keep the others from
-// being solved. Exit: 2 if one was refused, else 1 if one is not solved, else 3 if one is undecided.
+// Within --seconds, reading included.
+Answered SolveOne(const SolveVerb& o) {
+  std::atomic<bool> stopped = false;
+  const std::jthread timer = StopAfter(o.seconds, stopped);
+  const StopReading while_read(stopped);
+  try {
+    return SolveRead(o, stopped);
+  } catch (const ReadingStopped& end) {
+    InexactAnswer none;
+    none.method = o.method;
+    none.reason = end.what();
+    const Solution solution{none};
+    Json result = SolutionToJson(solution, 2);
+    result["assumptions"] = Json::array();
+    if (!o.json) PrintForPeople(o, {}, solution, result);
+    return {result, kExitUndecided};
+  }
+}
+
+// Each answer of many files has the name of its file, and one that is refused, or that ends in an error of
+// ours, does not keep the others from being solved. Exit: 70 if there was such an error, else 2 if one was
+// refused, else 1 if one is not solved, else 3 if one is undecided.
 int SolveMany(SolveVerb o) {
-  constexpr std::array kWorst = {kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};
+  constexpr std::array kWorst = {kExitInternal, kExitBadInput, kExitNotSo, kExitUndecided, kExitDone};
   const auto severity = [&](int exit) { return std::find(kWorst.begin(), kWorst.end(), exit); };
   Json results = Json::array();
   int exit = kExitDone;
+  const auto end_with = [&](int ended) {
+    if (severity(ended) < severity(exit)) exit = ended;
+  };
+  const auto fail = [&](const std::string& file, const std::string& error, int ended) {
+    std::cerr << "stiction: " << error << "\n";
+    results.push_back({{"file", file}, {"error", error}});
+    end_with(ended);
+  };
   for (const std::string& file : o.files) {
     o.file = file;
     if (!o.json) Tell("{}{}:\n", results.empty() ? "" : "\n", file);
     try {
       auto [answer, ended] = SolveOne(o);
       results.push_back({{"file", file}, {"answer", std::move(answer)}});
-      if (severity(ended) < severity(exit)) exit = ended;
+      end_with(ended);
     } catch (const InputError& error) {
-      std::cerr << "stiction: " << error.what() << "\n";
-      results.push_back({{"file", file}, {"error", error.what()}});
-      exit = kExitBadInput;
+      fail(file, error.what(), kExitBadInput);
+    } catch (const std::bad_alloc&) {
+      fail(file, file + ": limit: out of memory", kExitUndecided);
+    } catch (const std::exception& error) {
+      fail(file, fmt::format("{}: internal error: {}", file, error.what()), kExitInternal);
     }
   }
   if (o.json) std::cout << JsonText(results) << "\n";
@@ -293,11 +324,13 @@ const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
                  "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
   verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
-  verb.Option("--residual", o.options.residual, "largest error of inexact forces called solved")
+  verb.Option("--residual", o.options.residual,
+              "by how much b and mu may differ where inexact forces are called solved")
       .Range(0, 1)
       .Details(
-          "Of accelerations and of forces, in units of what acts at each contact. 0, the default: 1e-6 over "
-          "float, 1e-8 over wider numbers.");
+          "Relative, entry by entry, and A by eight roundings: the forces are exact for such b, mu and A. 0, "
+          "the "
+          "default: 1e-5 over float, 1e-8 over wider numbers.");
   verb.Option("--seconds", o.seconds, "after so long the best forces so far are told, undecided; 0: never")
       .Range(0, 1e9);
   verb.Flag("--fractions", o.fractions,

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "cli/narration/surveyed.h"
 #include "cli/shared.h"
 #include "corpus/formats/formats.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
 
 namespace stiction {
@@ -68,7 +70,7 @@ void PrintRuns(const std::string& head, const std::string& asymmetry, const Json
 // The facts once, then a line for every run; the same of (A + A')/2, if that was judged.
 void PrintSurveyed(const Json& entry) {
   const std::string name = std::filesystem::path(entry["file"].get<std::string>()).filename().string();
-  PrintRuns(fmt::format("{}: {} contacts{}", name, entry["contacts"].get<int>(),
+  PrintRuns(fmt::format("{}: {}{}", name, Counted(entry["contacts"].get<int>(), "contact"),
                         entry["dimension"] == 3 ? " in space" : ""),
             ShortText(entry["asymmetry"]["relative"].get<double>()), entry);
   if (entry.contains("symmetrized")) PrintRuns("with (A + A')/2 in place of A:", "0", entry["symmetrized"]);
@@ -85,8 +87,9 @@ std::string MeetingText(const Json& entries) {
       ++(meets == true ? meet : meets == false ? fail : open);
     }
   }
-  std::string text = fmt::format("Of {} problems {} meet the paper's assumptions, {} do not, {} are undecided",
-                                 entries.size(), meet, fail, open);
+  std::string text =
+      fmt::format("Of {} {} meet the paper's assumptions, {} do not, {} are undecided",
+                  Counted(static_cast<std::int64_t>(entries.size()), "problem"), meet, fail, open);
   if (unread > 0) text += fmt::format(", {} could not be read", unread);
   return text + ".\n";
 }
@@ -132,7 +135,7 @@ std::vector<std::filesystem::path> FilesOf(const std::vector<std::string>& paths
   return files;
 }
 
-// A file that cannot be read does not keep the others from being judged.
+// A file that cannot be read, or ends in an error of ours, does not keep the others from being judged.
 int Survey(const SurveyVerb& o) {
   int exit = kExitDone;
   Json entries = Json::array();
@@ -142,6 +145,12 @@ int Survey(const SurveyVerb& o) {
     throw InputError(
         fmt::format("survey: found no problem file in {}, expected files named *.json, *.dat or *.hdf5",
                     fmt::join(o.paths, ", ")));
+  const auto fail = [&](const std::filesystem::path& file, const std::string& error, int ended) {
+    if (exit != kExitInternal) exit = ended;
+    bar.Clear();
+    fmt::print(std::cerr, "stiction: {}\n", error);
+    entries.push_back({{"file", file.string()}, {"error", error}});
+  };
   for (const std::filesystem::path& file : files) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
@@ -153,10 +162,11 @@ int Survey(const SurveyVerb& o) {
       std::fflush(stdout);
       entries.push_back(std::move(entry));
     } catch (const InputError& error) {
-      exit = kExitBadInput;
-      bar.Clear();
-      fmt::print(std::cerr, "stiction: {}\n", error.what());
-      entries.push_back({{"file", file.string()}, {"error", error.what()}});
+      fail(file, error.what(), kExitBadInput);
+    } catch (const std::bad_alloc&) {
+      fail(file, fmt::format("{}: limit: out of memory", file.string()), kExitUndecided);
+    } catch (const std::exception& error) {
+      fail(file, fmt::format("{}: internal error: {}", file.string(), error.what()), kExitInternal);
     }
   }
   if (o.json) std::cout << JsonText(entries) << "\n";
@@ -170,8 +180,10 @@ const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
   verb.footer =
-      "The error is the largest of any acceleration or force, by Coulomb's law, in units of what acts at its "
-      "contact: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned doubles, "
+      "The error says by how much b and mu must change for the forces to be exact, by Coulomb's law, beside "
+      "eight "
+      "roundings of A: zero exactly at solutions; `solved` is at most 1e-8. It is that of the returned "
+      "doubles, "
       "evaluated over rationals on the matrix of the problem. A - A' and the distance of b from the range of A "
       "are relative; `rough` is an estimate of the latter, the others are bounds. Witnesses of what fails: "
       "`certify FILE --claim psd` or `--claim in-range`.";

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
 #include "cli/help.h"
+#include "corpus/rational.h"
 
 namespace stiction {
 namespace {
@@ -29,6 +31,15 @@ bool Read(const std::string& word, Number& number) {
   const char* const last = word.data() + word.size();
   const auto [end, error] = std::from_chars(word.data(), last, number);
   return error == std::errc() && end == last;
+}
+
+// A fraction too, as files have them.
+bool Read(const std::string& word, double& number) {
+  if (word.find('/') == word.npos) return Read<double>(word, number);
+  const auto exact = ParseRational(word);
+  if (!exact) return false;
+  number = ToDouble(*exact);
+  return std::isfinite(number) && (number != 0 || *exact == 0);
 }
 
 bool Read(const std::string& word, std::string& text) {

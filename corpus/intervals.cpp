@@ -79,6 +79,18 @@ Interval ShareInterval(std::int64_t count, std::int64_t of) {
           count == of ? 1 : boost::math::ibetac_inv(seen + 1, rest, kTail)};
 }
 
+Interval RateInterval(std::int64_t count, std::int64_t of) {
+  constexpr std::int64_t kRare = 100;
+  // Beyond, the series of the library take too long.
+  constexpr std::int64_t kMostTrials = 1'000'000'000;
+  if (of <= 0) return {0, 1};
+  if (count <= of && count >= of / kRare && of <= kMostTrials) return ShareInterval(count, of);
+  const Interval events = CountInterval(count);
+  const auto trials = static_cast<double>(of);
+  const double most = count <= of ? 1 : events.high / trials;
+  return {events.low / trials, std::min(events.high / trials, most)};
+}
+
 int DigitsToTell(double value, Interval interval, int at_least) {
   constexpr int kMost = 15;
   const auto alike = [&](double end, int digits) {
@@ -98,7 +110,8 @@ double RoundedUp(double x, int digits) {
 
 std::string RateText(std::int64_t count, std::int64_t total) {
   if (total == 0) return "";
-  return WithInterval(static_cast<double>(count), CountInterval(count), 1e6 / static_cast<double>(total), "");
+  return WithInterval(static_cast<double>(count) / static_cast<double>(total), RateInterval(count, total), 1e6,
+                      "");
 }
 
 std::string ShareText(std::int64_t count, std::int64_t total) {

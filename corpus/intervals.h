@@ -23,6 +23,10 @@ Interval CountInterval(std::int64_t count);
 // Biometrika 26, 1934. 0 to 1 where there was no trial, or the numbers are not those of trials.
 Interval ShareInterval(std::int64_t count, std::int64_t of);
 
+// Of a rate, events in so many trials: as of a share; where that is below a hundredth as of the count of
+// events, which is as good and a little wider.
+Interval RateInterval(std::int64_t count, std::int64_t of);
+
 // How many digits, three or six or more (`at_least`), keep the ends of an interval apart from its value: of
 // 124.254 [124.036, 124.473] four.
 int DigitsToTell(double value, Interval interval, int at_least);

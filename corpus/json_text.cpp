@@ -17,6 +17,11 @@ template class nlohmann::basic_json<nlohmann::ordered_map>;
 namespace stiction {
 namespace {
 
+// Of a number's literal.
+bool IsNotZero(std::string_view literal) {
+  return literal.substr(0, literal.find_first_of("eE")).find_first_of("123456789") != literal.npos;
+}
+
 // Builds the document from the parser's events, so that every key and number literal is seen.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -40,6 +45,11 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     if (literal.find_first_not_of("-0123456789") == literal.npos && Rational(literal, 10) != Rational(value)) {
       Refuse(PathOfNext(), Shortened(literal), "an integer that is a double exactly, or a string");
     }
+    if (value == 0 && IsNotZero(literal)) {
+      Refuse(PathOfNext(), Shortened(literal) + ", which is no double but 0",
+             fmt::format("a number in the range of doubles; as a string, \"{}\", it is exact",
+                         Shortened(literal)));
+    }
     return Add(value);
   }
 
@@ -52,7 +62,11 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override {
     constexpr int kNumberOverflow = 406;
-    if (error.id == kNumberOverflow) Refuse(PathOfNext(), Shortened(token), "a finite number");
+    if (error.id == kNumberOverflow) {
+      Refuse(
+          PathOfNext(), Shortened(token),
+          fmt::format("a number in the range of doubles; as a string, \"{}\", it is exact", Shortened(token)));
+    }
     // "[...] parse error at line 1, column 2: syntax error while parsing ..."
     const std::string_view text = error.what();
     const std::size_t line = std::min(text.find("line "), text.size());
@@ -134,12 +148,18 @@ void RefuseNul(std::string_view text, const std::string& source) {
   throw InputError(source, fmt::format("line {}, column {}", line, column), "a NUL byte", "JSON text");
 }
 
-void CheckWritable(const Json& value) {
+// Whether the text of the value needs no words in place of numbers.
+bool IsFinite(const Json& value) {
   STICTION_CHECK(!value.is_binary() && !value.is_discarded(), "JSON text has no such value");
-  STICTION_CHECK(!value.is_number_float() || std::isfinite(value.get<double>()),
-                 "a number that is not finite cannot be written as JSON");
+  if (value.is_number_float()) return std::isfinite(value.get<double>());
+  return !value.is_structured() || std::all_of(value.begin(), value.end(), IsFinite);
+}
+
+// Numbers that are not finite become text.
+void PutWords(Json& value) {
+  if (value.is_number_float()) value = NumberToJson(value.get<double>());
   if (!value.is_structured()) return;
-  for (const Json& child : value) CheckWritable(child);
+  for (Json& child : value) PutWords(child);
 }
 
 bool IsWord(const std::string& key) {
@@ -165,12 +185,23 @@ Json ParseJson(std::string_view text, const std::string& source) {
 std::string ReadText(const std::filesystem::path& file) { return ReadInput(file, kMostInputBytes); }
 
 std::string JsonText(const Json& value, int indent) {
-  CheckWritable(value);
+  if (IsFinite(value)) return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+  Json worded = value;
+  PutWords(worded);
+  return worded.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+bool IsUtf8(const Json& value) {
   try {
-    return value.dump(indent);
-  } catch (const Json::exception& error) {
-    throw InternalError(std::string("cannot be written as JSON: ") + error.what());
+    return !value.dump().empty();
+  } catch (const Json::exception&) {
+    return false;
   }
+}
+
+void RequireWritable(const Json& value) {
+  STICTION_CHECK(IsFinite(value), "a number that is not finite is not written to a file");
+  STICTION_CHECK(IsUtf8(value), "text that is no UTF-8 is not written to a file");
 }
 
 std::string Shortened(const std::string& text, std::size_t most) {
@@ -180,9 +211,7 @@ std::string Shortened(const std::string& text, std::size_t most) {
   return fmt::format("{}... ({} characters)", text.substr(0, end), text.size());
 }
 
-std::string Shown(const Json& value) {
-  return Shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+std::string Shown(const Json& value) { return Shortened(JsonText(value)); }
 
 bool IsExactDouble(const Rational& x) {
   const double nearest = ToDouble(x);

@@ -29,15 +29,22 @@ inline constexpr std::size_t kMaxJsonDepth = 100;
 
 // The document; `source` names the text in errors. Syntax errors come with line and column (in bytes),
 // everything else with its JSON path. Integers of 64 bits are kept as they are; a longer one is refused
-// unless it is a double exactly. Other numbers become the nearest double; an infinite one is refused.
+// unless it is a double exactly. Other numbers become the nearest double; one that is too large is refused, and
+// one that is not 0 and would become 0.
 Json ParseJson(std::string_view text, const std::string& source);
 
 // The bytes of a file; InputError if it cannot be read.
 std::string ReadText(const std::filesystem::path& file);
 
-// The text of `value`, on one line if `indent` is negative. A value that no JSON text stands for (infinity,
-// NaN, text that is not UTF-8) is an InternalError: nlohmann would write `null` for the first two.
+// The text of `value`, on one line if `indent` is negative: always JSON, whatever the value holds. Every text
+// of ours is made here. Bytes that are no UTF-8, as a file or its name may have, become U+FFFD; numbers that
+// are not finite, for which nlohmann would write `null`, become "inf", "-inf" and "nan" (NumberToJson).
 std::string JsonText(const Json& value, int indent = -1);
+
+// Whether all text in it is, a string's own included.
+bool IsUtf8(const Json& value);
+// Of what is read again: InternalError where its text would say something else.
+void RequireWritable(const Json& value);
 
 // `value` on one line, cut if it is long: for messages only.
 std::string Shown(const Json& value);

@@ -15,19 +15,6 @@ namespace stiction {
 
 // convert(x) of every number x.
 template <class To, class From, class Convert>
-ContactProblem<To> Converted(const ContactProblem<From>& problem, Convert convert) {
-  ContactProblem<To> result;
-  result.dimension = problem.dimension;
-  for (const Contact<From>& contact : problem.contacts) {
-    result.contacts.push_back(
-        {contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
-  }
-  result.A = problem.A.unaryExpr(convert);
-  result.b = problem.b.unaryExpr(convert);
-  return result;
-}
-
-template <class To, class From, class Convert>
 Pivot<To> Converted(const Pivot<From>& pivot, Convert convert) {
   Pivot<To> result;
   result.drive = pivot.drive;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time that other programs do not lengthen: the less of wall-clock and processor time. Where other threads or
-// processes do the work, Stopwatch(CLOCK_MONOTONIC) is wall-clock time alone.
+// processes do the work, Stopwatch(CLOCK_MONOTONIC) is wall-clock time alone. Never negative: a clock that is
+// set, as that of a virtual machine may be, can step back.
 
 #ifndef STICTION_CORPUS_STOPWATCH_H_
 #define STICTION_CORPUS_STOPWATCH_H_
@@ -27,7 +28,7 @@ class Stopwatch {
 
   double Seconds() const {
     const double elapsed = ReadSeconds(CLOCK_MONOTONIC) - start_;
-    return std::min(elapsed, ReadSeconds(processor_) - processor_start_);
+    return std::max(0.0, std::min(elapsed, ReadSeconds(processor_) - processor_start_));
   }
 
  private:

@@ -21,6 +21,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_sparse.h"
@@ -112,19 +113,26 @@ class PythonProblem {
   Eigen::VectorXd b_;
 };
 
+// Bytes that are no UTF-8, as a file or its name may have, become U+FFFD, as JsonText has it.
+py::str Decoded(const std::string& text) {
+  PyObject* const decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+  if (decoded == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
 py::object ToPython(const Json& json) {
   if (json.is_null()) return py::none();
   if (json.is_boolean()) return py::bool_(json.get<bool>());
   if (json.is_number_integer()) return py::int_(json.get<std::int64_t>());
   if (json.is_number()) return py::float_(json.get<double>());
-  if (json.is_string()) return py::str(json.get<std::string>());
+  if (json.is_string()) return Decoded(json.get_ref<const std::string&>());
   if (json.is_array()) {
     py::list list;
     for (const Json& value : json) list.append(ToPython(value));
     return list;
   }
   py::dict dict;
-  for (const auto& [key, value] : json.items()) dict[py::str(key)] = ToPython(value);
+  for (const auto& [key, value] : json.items()) dict[Decoded(key)] = ToPython(value);
   return dict;
 }
 
@@ -290,7 +298,8 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   }
   const ProblemFile& file = problem.file();
   SolveRequest request = RequestOf(wanted, file.problem, kSource);
-  request.factors = file.factors ? &*file.factors : nullptr;
+  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.options.limits.stop = stop;
     return SolutionToJson(SolveAsked(file.problem, request, kSource), file.problem.dimension);
@@ -433,21 +442,21 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
 
 // ---- Certificates ----
 
-// The text of the certificate; None where nothing that was run shows the claim or its negation.
-std::optional<std::string> CertifyProblem(PythonProblem& problem, const std::string& claim,
-                                          const std::string& policy, const std::string& law,
-                                          const Numbers& numbers) {
+// The answer, its certificate as the text of its file.
+py::object CertifyProblem(PythonProblem& problem, const std::string& claim, const std::string& policy,
+                          const std::string& law, const Numbers& numbers) {
   WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
   wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
-  const Json certificate = Interruptible(0, [&](const std::atomic<bool>* stop) {
+  Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;
     EnumerationOptions enumeration;
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
     return CertificateOf(wanted, problem.problem(), kSource, enumeration);
   });
-  if (!certificate.is_object()) return std::nullopt;
-  return JsonText(certificate, 1) + "\n";
+  Json& certificate = answer["certificate"];
+  if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";
+  return ToPython(answer);
 }
 
 // (accepted, claim, reason).
@@ -506,9 +515,9 @@ PYBIND11_MODULE(_stiction, module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const InputError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      PyErr_SetObject(PyExc_ValueError, Decoded(error.what()).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
+      PyErr_SetObject(PyExc_OSError, Decoded(error.what()).ptr());
     }
   });
   py::class_<PythonProblem>(module, "Problem")

@@ -10,6 +10,7 @@
 #include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/store/finding_words.h"
 #include "python/signals.h"
 #include "reports/tables/campaign_tables.h"
 #include "search/adversary/optimized_unit.h"
@@ -26,7 +27,7 @@ namespace py = pybind11;
 bool RunCampaign(const std::string& campaign_text, const std::string& store,
                  std::optional<std::int64_t> problems, std::optional<double> minutes, int threads,
                  std::optional<double> finishing) {
-  const Campaign campaign = ParseCampaign(campaign_text, "campaign");
+  const Campaign campaign = AsBegunIn(store, ParseCampaign(campaign_text, "campaign"));
   RequireConsistent(campaign);
   Signals signals;
   SearchOptions options;
@@ -54,6 +55,7 @@ bool RunCampaign(const std::string& campaign_text, const std::string& store,
 py::dict ToPython(const Discovery& discovery) {
   py::dict dict;
   dict["count"] = discovery.met;
+  dict["sentence"] = SentenceOf(*discovery.representative);
   ForEachColumn(*discovery.representative,
                 [&dict](const char* name, const auto& value) { dict[py::str(name)] = value; });
   return dict;

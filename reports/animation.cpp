@@ -106,7 +106,7 @@ class Contacts {
                     {"kind", kKinds[static_cast<std::size_t>(force.law.kind)]},
                     {"rows", force.rows.size()}};
     if (force.law.HasFrictionRows()) contact["mu"] = force.law.mu;
-    const auto [found, is_new] = index_.emplace(contact.dump(), static_cast<int>(json_.size()));
+    const auto [found, is_new] = index_.emplace(JsonText(contact), static_cast<int>(json_.size()));
     if (is_new) json_.push_back(std::move(contact));
     return found->second;
   }

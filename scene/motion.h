@@ -39,15 +39,21 @@ inline Vector3<double> SpinOf(const ChangeIn<Space>& change) { return change.tai
 inline double RateOf(double spin) { return std::abs(spin); }
 inline double RateOf(const Vector3<double>& spin) { return spin.norm(); }
 
-// A bound of the speed of its points, m/s.
+// How far its pieces are from its centre, m.
 template <class Kind>
-double FastestPoint(const BodyIn<Kind, double>& body) {
+double RadiusOf(const BodyIn<Kind, double>& body) {
   double radius = 0;
   for (const auto& shape : body.shapes) {
     radius = std::max(radius, shape.center.norm() + shape.radius);
     for (const auto& corner : shape.corners) radius = std::max(radius, corner.norm());
   }
-  return body.velocity.norm() + RateOf(body.spin) * radius;
+  return radius;
+}
+
+// A bound of the speed of its points, m/s.
+template <class Kind>
+double FastestPoint(const BodyIn<Kind, double>& body) {
+  return body.velocity.norm() + RateOf(body.spin) * RadiusOf(body);
 }
 
 template <class Kind>

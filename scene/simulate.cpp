@@ -16,7 +16,8 @@ namespace stiction {
 namespace {
 
 constexpr int kHoldRounds = 8;
-constexpr double kDeep = 1e-3;     // m; where the scene has no gap
+constexpr double kDeep = 1e-3;     // of the scene's size; where it has no gap
+constexpr double kSlow = 1e-3;     // of the scene's size a second; at rest where there is no gravity
 constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
 
 // The derivative of the gap: negative where the contact closes.
@@ -80,7 +81,8 @@ SimulationIn<Kind>::SimulationIn(SceneType scene, const SimulationOptions& optio
       observe_(std::move(observe)),
       solvers_([options] { return SceneSolver(options.solver); }) {
   const double gravity = scene_.gravity.norm();
-  scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : 1e-3;
+  size_ = SizeOf(scene_);
+  scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : kSlow * size_;
 }
 
 template <class Kind>
@@ -96,7 +98,7 @@ void SimulationIn<Kind>::Step() {
 template <class Kind>
 void SimulationIn<Kind>::StepBy(double h, int halvings) {
   if (!is_near_known_) FindNear();
-  const double allowed = std::max(scene_.gap > 0 ? scene_.gap : kDeep, Overlap());
+  const double allowed = std::max(scene_.gap > 0 ? scene_.gap : kDeep * size_, Overlap());
   std::vector<decltype(MotionOf(scene_.bodies[0]))> before;
   before.reserve(scene_.bodies.size());
   for (const auto& body : scene_.bodies) before.push_back(MotionOf(body));
@@ -181,7 +183,7 @@ bool SimulationIn<Kind>::Closes(const Touch& contact, const Changes& acceleratio
   const auto normal = ContactConstraint(scene_, contact).rows[0];
   const double change = normal.J[0].dot(accelerations[contact.a]) + normal.J[1].dot(accelerations[contact.b]);
   const double speed = ApproachOf(scene_, contact) + Kick() * change + h / 2 * normal.bias;
-  return !(contact.gap + h * speed >= -kDrift);
+  return !(contact.gap + h * speed >= -kDrift * size_);
 }
 
 // Moves from beyond_ to contacts_ what closes; whether there was anything.
@@ -307,12 +309,14 @@ auto SimulationIn<Kind>::Response(const Model& model, const Forces& f) const -> 
 
 template <class Kind>
 bool SimulationIn<Kind>::HasDrifted() const {
-  const auto overlaps = [](const Touch& contact) { return contact.gap < -kDrift; };
+  const auto overlaps = [this](const Touch& contact) { return contact.gap < -kDrift * size_; };
   if (std::any_of(contacts_.begin(), contacts_.end(), overlaps)) return true;
   if (scene_.joints.empty()) return false;
   const auto joints = JointConstraints(scene_);
-  return std::any_of(joints.begin(), joints.end(),
-                     [](const auto& joint) { return std::abs(joint.rows[0].error) > kDrift; });
+  return std::any_of(joints.begin(), joints.end(), [this](const auto& joint) {
+    const bool turns = WayOf(joint.rows[0]).isZero(0);  // its error is the sine of an angle
+    return std::abs(joint.rows[0].error) > kDrift * (turns ? 1 : size_);
+  });
 }
 
 template <class Kind>
@@ -487,6 +491,28 @@ template class SimulationIn<Plane>;
 template class SimulationIn<Space>;
 
 // ---- Measures --------------------------------------------------------------------------------
+
+template <class Kind>
+double SizeOf(const SceneIn<Kind, double>& scene) {
+  double radius = 0;
+  const auto include = [&](int body, const auto& local) {
+    if (!scene.bodies[body].fixed) radius = std::max(radius, local.norm());
+  };
+  for (const auto& body : scene.bodies) {
+    if (!body.fixed) radius = std::max(radius, RadiusOf(body));
+  }
+  for (const auto& joint : scene.joints) {
+    include(joint.a, joint.at_a);
+    include(joint.b, joint.at_b);
+  }
+  for (const auto& contact : scene.contacts) {
+    include(contact.a, contact.at_a);
+    include(contact.b, contact.at_b);
+  }
+  return radius > 0 ? 2 * radius : 1;
+}
+template double SizeOf(const Scene<double>&);
+template double SizeOf(const SceneInSpace<double>&);
 
 template <class Kind>
 Energy EnergyOf(const SceneIn<Kind, double>& scene) {

@@ -30,11 +30,11 @@
 //
 // Overlap. Contacts are predicted from the features that are near at the start of a step, to first order: a
 // body that turns fast, an edge that gives way to a face, a corner behind another leave overlap that speeds and
-// steps set. A step that ends deeper than the gap (1 mm in a scene without), and deeper than it began, is taken
-// back and done in two halves, and they likewise, SimulationOptions::halvings times one within the other. So no
-// frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings, and what was left of it
-// was done without. Forces and contacts are those of the last part. Observers see the problems of steps that
-// were taken back too, and all counters but `frames` and `contacts` count them.
+// steps set. A step that ends deeper than the gap (a thousandth of the scene's size in one without), and deeper
+// than it began, is taken back and done in two halves, and they likewise, SimulationOptions::halvings times one
+// within the other. So no frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings,
+// and what was left of it was done without. Forces and contacts are those of the last part. Observers see the
+// problems of steps that were taken back too, and all counters but `frames` and `contacts` count them.
 //
 // Which solution. Forces and accelerations need not be unique. The forces of a step start from those of the
 // step before: each contact's goes to the nearest of the contacts between the same pieces, each joint's row
@@ -63,11 +63,18 @@
 
 namespace stiction {
 
-inline constexpr double kDrift = 1e-9;  // m, or the sine of an angle
+inline constexpr double kDrift = 1e-9;  // of the size of the scene, or the sine of an angle
+
+// The size of a scene, m: twice the farthest that a piece, a joint or a given contact of a moving body is from
+// its centre of mass; 1 where all are points. Tolerances are parts of it, so that a scene ten times as large,
+// with all that has a length in its unit, moves alike but for rounding.
+template <class Kind>
+double SizeOf(const SceneIn<Kind, double>& scene);
 
 struct SimulationOptions {
   double step = 1.0 / 60;  // s
-  // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step.
+  // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step, without gravity a
+  // thousandth of the scene's size a second.
   double rest = 0;
   bool minimal = true;
   bool warm = true;   // whether a step's forces start from those of the step before
@@ -231,6 +238,7 @@ class SimulationIn {
   std::function<void(const FrameProblem&)> observe_;
   tbb::enumerable_thread_specific<SceneSolver> solvers_;
   SimulationStatistics statistics_;
+  double size_ = 1;          // SizeOf the scene
   double step_ = 0;          // that is being taken: options_.step or a part of it
   double before_ = 0;        // the step before, of whose middle the velocities are; 0: of the start itself
   bool exhausted_ = false;   // no halvings are left in this frame

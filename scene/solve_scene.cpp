@@ -2,9 +2,11 @@
 #include "scene/solve_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
+#include "solver/problem/pressing.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/problem/row_scale.h"
 
@@ -17,6 +19,9 @@ constexpr int kProximalPoints = 3;
 // What a scene makes of b is known to a few roundings of its largest entry. Accelerations of that size are no
 // error: rows that nothing else acts on, as the second hinge of an axis has some, would be held to rounding.
 constexpr double kNoise = 1e-11;
+// And joints that repeat each other, as two hinges of a door do, contradict each other by what is curved in
+// their drift.
+constexpr double kNoiseOfRepeated = 1e-7;
 
 // So often Newton's method may fail: from forces of the step before once for so many rows, since of a small
 // problem, whose contacts have just changed, other methods cost less; without a start, what fails more fails.
@@ -25,19 +30,21 @@ constexpr int kRowsPerFailure = 40, kFailures = 12;
 constexpr int kLargeRows = 400;  // from which on A is better sparse in the plane, too
 
 template <class Problem>
-double NoiseOf(const Problem& problem) {
-  return problem.rows() > 0 ? kNoise * problem.b.cwiseAbs().maxCoeff() : 0;
+double NoiseOf(const Problem& problem, double share = kNoise) {
+  return problem.rows() > 0 ? share * problem.b.cwiseAbs().maxCoeff() : 0;
 }
 
-// The largest error of forces.
+// The largest lenient error of forces.
 template <class Problem>
-double ErrorOf(const Problem& problem, const typename Problem::Vector& f) {
-  const LongVector forces = f.template cast<long double>();
-  LongVector a = Recompute(problem, forces);
-  const double noise = NoiseOf(problem);
-  for (long double& x : a) x = Abs(x) <= noise ? 0 : x;
-  return static_cast<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, forces, a).Largest());
+double ErrorOf(const Problem& problem, const typename Problem::Vector& f, double share = kNoise) {
+  Eigen::VectorXd a = problem.A * f + problem.b;
+  const double noise = NoiseOf(problem, share);
+  for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
 }
+
+constexpr double kMostPressing = 1e7;  // of forces that are no sign that there is no solution
 
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
@@ -110,10 +117,12 @@ SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
   if (reduction.end() != ReductionEnd::kReduced) return answer;
   answer.f.resize(0);
   // What remains may be held to the rounding of what was taken out; the whole is not.
-  const auto of_whole = [&](const Dense::Vector& f) { return ErrorOf(problem, reduction.Forces(f)); };
+  const auto of_whole = [&](const Dense::Vector& f) {
+    return ErrorOf(problem, reduction.Forces(f), kNoiseOfRepeated);
+  };
   if (reduction.problem().rows() > 0 && !TryInTurn(reduction.problem(), answer, of_whole)) return answer;
   answer.f = reduction.Forces(answer.f);
-  const double error = ErrorOf(problem, answer.f);
+  const double error = ErrorOf(problem, answer.f, kNoiseOfRepeated);
   if (!(error <= kLooseWholeResidual)) return answer;
   answer.outcome = Outcome::kSolved;
   if (ValueOf(answer.counters, "loose") == 0 && error > kWholeResidual) Add(answer.counters, "loose");
@@ -153,8 +162,11 @@ bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error err
   double least = kLooseResidual;
   for (const Turn& turn : kTurns) {
     if (turn.friction != friction || turn.dimension != problem.dimension) continue;
-    if ((this->*turn.run)(problem, answer)) return true;
-    if (answer.f.size() != problem.rows() || !answer.f.allFinite()) continue;
+    const bool solved = (this->*turn.run)(problem, answer);
+    if (answer.f.size() != problem.rows() || !answer.f.allFinite() ||
+        Pressing(problem, answer.f) > kMostPressing)
+      continue;
+    if (solved) return true;
     const double error = error_of(answer.f);
     if (error <= kWholeResidual) return true;
     if (!(error <= least)) continue;
@@ -181,6 +193,7 @@ bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
 }
 
 bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
+  if (problem.rows() == 0) return false;
   const double eps = kProximal * problem.A.diagonal().maxCoeff();
   Dense near = problem;
   near.A.diagonal().array() += eps;

@@ -16,10 +16,10 @@ inline constexpr int kAlgorithmVersion = 1;
 // Of what is counted of runs besides their steps and ends: which answers of doubles are wrong, which loops in
 // space are proved, which problems are audited. A store is gone on with, and merged, under one such version; it
 // is raised with the other, too.
-inline constexpr int kCountsVersion = 5;
+inline constexpr int kCountsVersion = 6;
 
-// Of a search that tests a solver: raised with these, and with what its answers are judged by.
-inline constexpr int kJudgeVersion = kCountsVersion + 3;
+// Of a search that tests a solver: raised with these, and with what its answers, hangs and leaks are judged by.
+inline constexpr int kJudgeVersion = kCountsVersion + 4;
 
 }  // namespace stiction
 

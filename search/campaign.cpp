@@ -233,7 +233,9 @@ Campaign ParseCampaign(const std::string& text, const std::string& source) {
   if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
   root.Required("version", "1").Integer(1, 1, "1");
   Campaign campaign;
-  ReadFields(kFields, root, campaign, {"format", "version"});
+  Faults faults(source);
+  ReadFields(kFields, root, campaign, faults, {"format", "version"});
+  faults.Throw();
   return campaign;
 }
 
@@ -322,7 +324,9 @@ Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source)
     std::vector<FieldOf<Campaign>> told;
     std::ranges::copy_if(kFields, std::back_inserter(told),
                          [](const auto& f) { return f.use == FieldUse::kRemark; });
-    ReadFields(std::span<const FieldOf<Campaign>>(told), root, campaign);
+    Faults faults(of_remarks);
+    ReadFields(std::span<const FieldOf<Campaign>>(told), root, campaign, faults);
+    faults.Throw();
   }
   return campaign;
 }
@@ -340,8 +344,9 @@ std::string ShapeOfCampaign() { return ShapeOf(kFields, R"(format: "stiction-cam
 
 CampaignIdentity IdentityOf(const Campaign& campaign) {
   const Json remarks = FieldsOf(campaign, FieldUse::kRemark);
-  return {DefinitionToJson(campaign).dump(), campaign.seed, kPoliciesForm.write(campaign).dump(),
-          campaign.solver.name.empty() ? kCountsVersion : kJudgeVersion, remarks.empty() ? "" : remarks.dump()};
+  return {JsonText(DefinitionToJson(campaign)), campaign.seed, JsonText(kPoliciesForm.write(campaign)),
+          campaign.solver.name.empty() ? kCountsVersion : kJudgeVersion,
+          remarks.empty() ? "" : JsonText(remarks)};
 }
 
 std::vector<Task> Schedule(const Campaign& campaign) {
@@ -361,25 +366,55 @@ Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit) {
   return schedule[static_cast<std::size_t>(unit) % schedule.size()];
 }
 
-std::int64_t UnitProblems(const Campaign& campaign, const Task& task) {
-  return std::max<std::int64_t>(1, campaign.unit_problems >> std::max(0, task.contacts - 2));
+std::int64_t FamilyCount(const Campaign& campaign) {
+  return static_cast<std::int64_t>(campaign.contacts.size() * campaign.generators.size());
+}
+
+std::int64_t UnitProblems(const Campaign& campaign, const Task& task, std::int64_t unit) {
+  const auto of_size = [&task](std::int64_t problems) {
+    return std::max<std::int64_t>(1, problems >> std::max(0, task.contacts - 2));
+  };
+  const std::int64_t whole = of_size(campaign.unit_problems);
+  if (campaign.first_unit_problems == 0) return whole;
+  constexpr std::int64_t kMostDoublings = 62;
+  std::int64_t problems = std::min(campaign.first_unit_problems, whole);
+  const std::int64_t doublings = std::min(unit / FamilyCount(campaign), kMostDoublings);
+  for (std::int64_t turn = 0; turn < doublings && problems < whole; ++turn) problems *= 2;
+  return std::min(problems, whole);
 }
 
 std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems) {
   const std::vector<Task> schedule = Schedule(campaign);
+  const auto round = static_cast<std::int64_t>(schedule.size());
+  // One by one while they grow, then by rounds of the schedule, then one by one again.
+  std::int64_t unit = 0, rest = problems;
+  const auto take = [&] {
+    rest -= UnitProblems(campaign, TaskOf(schedule, unit), unit);
+    ++unit;
+  };
+  const auto grows = [&] {
+    return UnitProblems(campaign, {campaign.generators.front(), 1}, unit) < campaign.unit_problems;
+  };
+  while (rest > 0 && (grows() || unit % round != 0)) take();
   std::int64_t of_round = 0;  // or of a part that is enough
-  for (const Task& task : schedule) {
-    if (of_round > problems) break;
-    of_round += UnitProblems(campaign, task);
+  for (std::int64_t next = unit; next < unit + round && of_round <= rest; ++next)
+    of_round += UnitProblems(campaign, TaskOf(schedule, next), next);
+  if (rest > 0) {
+    unit += rest / of_round * round;
+    rest %= of_round;
   }
-  std::int64_t units = problems / of_round * static_cast<std::int64_t>(schedule.size());
-  std::int64_t rest = problems % of_round;
-  for (const Task& task : schedule) {
-    if (rest <= 0) break;
-    rest -= UnitProblems(campaign, task);
-    ++units;
-  }
-  return units;
+  while (rest > 0) take();
+  return unit;
+}
+
+Campaign AsBegun(Campaign campaign) {
+  if (campaign.first_unit_problems == 0 && campaign.objective.empty()) campaign.first_unit_problems = 1;
+  return campaign;
+}
+
+Campaign AsBegunIn(const std::filesystem::path& store, const Campaign& campaign) {
+  const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(store));
+  return is_there && Store::IdentityIn(store) == IdentityOf(campaign) ? campaign : AsBegun(campaign);
 }
 
 }  // namespace stiction

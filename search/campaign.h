@@ -28,7 +28,11 @@ struct Campaign {
   std::vector<MuChoice> palette = {kDefaultPalette.begin(), kDefaultPalette.end()};
   std::vector<Policy> policies = {Policy{}};
   std::int64_t unit_problems = 10000;  // problems of a unit of at most two contacts; see UnitProblems
-  std::int64_t audit_every = 5000;     // one problem in so many is also run exactly
+  // The first unit of each family has so many, and each further one twice as many as the one before, up to
+  // unit_problems: so any budget tries all families. 0: all units are alike, as in a store from before this was
+  // so.
+  std::int64_t first_unit_problems = 0;
+  std::int64_t audit_every = 5000;  // one problem in so many is also run exactly
   // Complete driving runs on all problems that are audited, on the first of each group of a unit that the
   // published algorithm does not solve, and on one in so many, drawn by their seeds, of the suspicions. Of what
   // it runs on, one in so many is run by Lemke's method too (audited problems: all); and of those of at most
@@ -42,6 +46,7 @@ struct Campaign {
   // double: suspicions are decided again, filtered. filtered, exact: every problem is decided so at once.
   Arithmetic arithmetic = Arithmetic::kDouble;
   bool gravity_only = false;  // bodies without applied forces
+  bool no_leaks = false;      // the memory of a solver under test is not looked at
   // A unit spends its problems on the candidates of an optimizer, under the one policy (adversary/). Empty:
   // random problems.
   std::string objective;
@@ -67,6 +72,8 @@ inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
     {"mu", &kPaletteForm, "friction palette"},
     {"policies", &kPoliciesForm, "", "", "", FieldUse::kApart},
     {"unit_problems", &Campaign::unit_problems, "problems of a unit"},
+    {"first_unit_problems", &Campaign::first_unit_problems, "problems of the first unit of each family", "", "",
+     FieldUse::kDefines, 1, kMostOfField, 0},
     {"audit_every", &Campaign::audit_every, "audited: one problem in",
      "run one problem in so many exactly though nothing is suspected", "Existence included; 1 audits all"},
     {"lemke_every", &Campaign::lemke_every, "by Lemke’s method too, of the suspicions: one in"},
@@ -82,6 +89,9 @@ inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
     {"arithmetic", &kArithmeticForm},
     {"gravity_only", &Campaign::gravity_only, "bodies under gravity alone",
      "bodies without applied forces: of generators of bodies"},
+    {"no_leaks", &Campaign::no_leaks, "leaks are not looked for",
+     "do not look whether a solver under test leaks",
+     "As for one that declares \"leaks\": false: its memory may grow for long until it is collected"},
     {"objective", &kObjectiveForm},
     {"optimizer", &kOptimizerForm},
     {"parents", &kParentsForm},
@@ -96,6 +106,10 @@ Campaign ParseCampaign(const std::string& text, const std::string& source);
 // InputError if what it asks for does not fit together: a generator and its friction coefficients or its
 // gravity, an objective and its policies.
 void RequireConsistent(const Campaign& campaign);
+// As a new search takes it: units begin small unless it says otherwise. Those of an optimizer are all alike.
+Campaign AsBegun(Campaign campaign);
+// The same for a store, which, if it is from before units began small, goes on as it began.
+Campaign AsBegunIn(const std::filesystem::path& store, const Campaign& campaign);
 inline Surroundings SurroundingsOf(const Campaign& campaign) {
   return {campaign.palette, campaign.gravity_only};
 }
@@ -118,8 +132,12 @@ std::vector<Task> Schedule(const Campaign& campaign);
 
 Task TaskOf(const std::vector<Task>& schedule, std::int64_t unit);
 
-// Problems of a unit: half as many for each contact beyond two, so that no unit takes long.
-std::int64_t UnitProblems(const Campaign& campaign, const Task& task);
+// The first units try each family, a generator at one size, once.
+std::int64_t FamilyCount(const Campaign& campaign);
+
+// Problems of a unit: half as many for each contact beyond two, so that no unit takes long; fewer at the
+// beginning (first_unit_problems).
+std::int64_t UnitProblems(const Campaign& campaign, const Task& task, std::int64_t unit);
 // The least number of units, counted from 0, that hold so many problems.
 std::int64_t UnitsFor(const Campaign& campaign, std::int64_t problems);
 

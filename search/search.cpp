@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"
 #include "corpus/stopwatch.h"
 #include "corpus/store/store_lock.h"
@@ -33,6 +34,12 @@ using std::chrono::duration;
 
 double ThreadSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
+std::int64_t ProblemsIn(const Record& record) {
+  std::int64_t problems = 0;
+  for (const auto& [key, tally] : record.under_test) problems += tally.problems;
+  return problems + ProblemsOf(record);
+}
+
 double ShareOf(const Campaign& campaign, const SearchOptions& options) {
   if (options.only_finish) return 1;
   return options.finishing.value_or(campaign.objective.empty() ? kFinishingShare : kFinishingShareOfObjective);
@@ -40,12 +47,13 @@ double ShareOf(const Campaign& campaign, const SearchOptions& options) {
 
 // What a thread works with.
 struct Worker {
-  Worker(const Campaign& campaign, const SearchOptions& options) : runner(campaign) {
+  Worker(const Campaign& campaign, const SearchOptions& options, const std::function<bool()>& stopped)
+      : runner(campaign) {
     if (campaign.solver.name.empty()) return;
     if (options.solver.empty())
       throw InputError(fmt::format("{}: found a search that tests {}, expected --solver FILE with it",
                                    options.store.string(), campaign.solver.name));
-    solver = std::make_unique<SolverProcess>(options.solver);
+    solver = std::make_unique<SolverProcess>(options.solver, SolverPatience{.stopped = stopped});
     if (solver->about() != campaign.solver)
       throw InputError(fmt::format("--solver: found {} {}, expected {} {}, which this search tests",
                                    solver->about().name, solver->about().version, campaign.solver.name,
@@ -80,6 +88,8 @@ class Search {
         backlog_.Add(std::move(finding));
       }
     }
+    TakeStock();
+    progress_.only_finishes = options.only_finish;
     if (options.only_finish) wanted_units_ = 0;
     if (!options.problems) return;
     wanted_units_ = UnitsFor(campaign, *options.problems);
@@ -89,7 +99,7 @@ class Search {
   }
 
   SearchReport Run(const std::function<void(const SearchProgress&)>& show) {
-    if (options_.started) options_.started();
+    if (options_.started) options_.started(progress_);
     start_ = Clock::now();
     if (options_.minutes)
       deadline_ =
@@ -112,14 +122,30 @@ class Search {
   }
 
  private:
+  // What earlier calls left, which is told with what this one brings.
+  void TakeStock() {
+    const Record total = store_.Total();
+    progress_.problems = ProblemsIn(total);
+    if (!campaign_.objective.empty())
+      for (const auto& [unit, text] : store_.Elites())
+        progress_.problems += ElitesFromText(text, options_.store.string()).evaluations;
+    progress_.problems_before = progress_.problems;
+    for (const auto& [signature, count] : total.signatures) {
+      progress_.findings += count;
+      signatures_.insert(signature);
+    }
+    progress_.groups = static_cast<std::int64_t>(signatures_.size());
+  }
+
   bool Interrupted() const { return options_.interrupted != nullptr && *options_.interrupted; }
   bool TimeUp() const { return deadline_ && Clock::now() >= *deadline_; }
   bool Stopped() const { return failed_ || Interrupted() || TimeUp(); }
 
   SearchEnd End() const {
     if (Interrupted()) return SearchEnd::kInterrupted;
-    const bool unfinished = abandoned_ || backlog_.waiting() > 0 || UnitsLeft();
-    return unfinished ? SearchEnd::kTimeUp : SearchEnd::kDone;
+    if (abandoned_ || UnitsLeft()) return SearchEnd::kTimeUp;
+    if (backlog_.waiting() == 0) return SearchEnd::kDone;
+    return TimeUp() ? SearchEnd::kTimeUp : SearchEnd::kLeft;
   }
 
   SearchProgress Progress() const {  // under the mutex
@@ -132,7 +158,7 @@ class Search {
 
   void RunThread() {
     try {
-      Worker worker(campaign_, options_);
+      Worker worker(campaign_, options_, [this] { return Stopped(); });
       FinishingTime time{share_};
       while (!Stopped()) {
         if (FinishOne(worker, time)) continue;
@@ -143,6 +169,12 @@ class Search {
           break;
         }
       }
+    } catch (const InputError&) {
+      // A solver that was asked what it is when the search ended is no failure of it.
+      const std::lock_guard lock(mutex_);
+      abandoned_ = true;
+      if (!failure_ && !Stopped()) failure_ = std::current_exception();
+      failed_ = failed_ || failure_;
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
@@ -184,17 +216,30 @@ class Search {
   // Empty if it was cancelled: half an optimized unit is none.
   std::optional<UnitResult> Run(Worker& worker, std::int64_t unit, const std::vector<Candidate>& parents) {
     const auto stopped = [this] { return Stopped(); };
+    const auto tell = [this](const Finding& finding) { KeepAtOnce(finding); };
     if (campaign_.objective.empty()) {
-      if (worker.solver) return RunSolverUnit(campaign_, unit, *worker.solver, stopped);
+      if (worker.solver) return RunSolverUnit(campaign_, unit, *worker.solver, stopped, tell);
       return worker.runner.Run(unit);
     }
     WorkMeter meter;  // candidates are tried and confirmed in turn: all of it counts as what is not named
     UnitResult result = worker.solver
-                            ? RunOptimizedSolverUnit(campaign_, unit, *worker.solver, parents, stopped)
+                            ? RunOptimizedSolverUnit(campaign_, unit, *worker.solver, parents, stopped, tell)
                             : RunOptimizedUnit(campaign_, unit, parents, stopped);
     result.time = meter.Read();
     if (Stopped()) return std::nullopt;
     return result;
+  }
+
+  // Of a unit that is still being run, and may take long or never come to its end.
+  void KeepAtOnce(const Finding& finding) {
+    const std::lock_guard lock(mutex_);
+    if (known_.contains(finding.signature) || !store_.AddFinding(finding)) return;
+    known_.insert(finding.signature);
+    signatures_.insert(finding.signature);
+    progress_.groups = static_cast<std::int64_t>(signatures_.size());
+    progress_.news.push_back(finding);
+    backlog_.Add(finding);
+    changed_.notify_all();
   }
 
   bool RunOneUnit(Worker& worker) {
@@ -241,7 +286,7 @@ class Search {
     lock.unlock();
     const double start = worker.Seconds();
     double seconds_of_ipopt = 0;  // in a process of its own
-    const auto spent = [&] { return worker.Seconds() - start + seconds_of_ipopt; };
+    const auto spent = [&] { return std::max(0.0, worker.Seconds() - start) + seconds_of_ipopt; };
     ExactMethods methods;
     methods.ipopt = [&, ask = methods.ipopt](const ExactProblem& problem) {
       const Feasibility answer = ask(problem);

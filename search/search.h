@@ -25,6 +25,24 @@ inline constexpr double kFinishingShare = 0.2;              // of processor time
 inline constexpr double kFinishingShareOfObjective = 0.05;  // where what is sought is better candidates
 inline constexpr std::int64_t kMostFinished = 100;          // of one kind and number of contacts
 
+struct SearchProgress {
+  double seconds = 0;
+  std::int64_t problems = 0;         // that the store holds
+  std::int64_t problems_before = 0;  // of these, what it held before this call
+  std::int64_t units_done = 0;       // of this shard, with those of earlier calls if --problems is given
+  std::optional<std::int64_t> units_wanted;  // of this shard
+  std::int64_t groups = 0;                   // signatures that the store holds
+  std::int64_t findings = 0;                 // likewise
+  std::int64_t finished = 0;                 // in this call
+  std::int64_t pending = 0;                  // representatives to finish
+  bool only_finishes = false;
+  std::int64_t left_out = 0;  // for which there is no room (backlog.h)
+  ProcessorTime time;         // in this call
+  // Since the last report: representatives of groups that the store did not have, and what turned out to be
+  // grave.
+  std::vector<Finding> news;
+};
+
 struct SearchOptions {
   std::filesystem::path store;
   std::string build;    // that works
@@ -37,26 +55,13 @@ struct SearchOptions {
   std::vector<std::string> solver;  // runs the solver under test (under_test/solver_process.h); empty: none
   bool only_finish = false;         // no units: all findings that are not finished
   const std::atomic<bool>* interrupted = nullptr;
-  std::function<void()> started = {};  // the store is open: called before the first unit
+  // The store is open: called before the first unit.
+  std::function<void(const SearchProgress&)> started = {};
 };
 
-struct SearchProgress {
-  double seconds = 0;
-  std::int64_t problems = 0;    // in this call
-  std::int64_t units_done = 0;  // of this shard, with those of earlier calls if --problems is given
-  std::optional<std::int64_t> units_wanted;  // of this shard
-  std::int64_t groups = 0;                   // signatures met in this call, in the store or new
-  std::int64_t findings = 0;                 // in this call
-  std::int64_t finished = 0;                 // likewise
-  std::int64_t pending = 0;                  // representatives to finish
-  std::int64_t left_out = 0;                 // for which there is no room (backlog.h)
-  ProcessorTime time;                        // in this call
-  // Since the last report: representatives of groups that the store did not have, and what turned out to be
-  // grave.
-  std::vector<Finding> news;
-};
-
-enum class SearchEnd { kDone, kTimeUp, kInterrupted };
+// kDone: all that was asked for was done, before or now. kLeft: all units were run, and findings are not
+// finished (SearchOptions::finishing).
+enum class SearchEnd { kDone, kLeft, kTimeUp, kInterrupted };
 
 struct SearchReport {
   SearchEnd end = SearchEnd::kDone;

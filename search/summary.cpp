@@ -16,6 +16,7 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/store/store_totals.h"
 #include "search/adversary/optimized_unit.h"
+#include "search/families.h"
 #include "search/under_test/solver_report.h"
 
 namespace stiction {
@@ -50,9 +51,9 @@ Json RatesToJson(const Counts& counts) {
   Json rates = Json::object();
   for (const auto& [name, count] : FailuresOf(counts)) {
     const double scale = 1e6 / static_cast<double>(counts.runs);
-    const Interval expected = CountInterval(count);
+    const Interval rate = RateInterval(count, counts.runs);
     rates[name] = {{"per_million", scale * static_cast<double>(count)},
-                   {"interval", IntervalToJson(Interval{scale * expected.low, scale * expected.high})}};
+                   {"interval", IntervalToJson(Interval{1e6 * rate.low, 1e6 * rate.high})}};
   }
   return rates;
 }
@@ -126,6 +127,8 @@ constexpr auto kOptimizedMembers = std::to_array<ToldOf<O>>({
     {"objective", "text", "", [](const O& s) -> Json { return s.campaign.objective; }},
     {"optimizer", "text", "", [](const O& s) -> Json { return s.campaign.optimizer; }},
     {"units", "integer", "", [](const O& s) -> Json { return s.yield.units; }},
+    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
+     [](const O& s) { return FamiliesToJson(s.store); }},
     {"candidates", "integer", "", [](const O& s) -> Json { return s.yield.evaluations; }},
     {"confirmations", "integer", "candidates whose value was confirmed exactly",
      [](const O& s) -> Json { return s.yield.confirmations; }},
@@ -177,6 +180,8 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"processor_seconds", "times", "", [](const S& s) { return TimeToJson(s.totals.work.time); }},
     {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }},
     {"problems", "integer", "", [](const S& s) -> Json { return s.totals.problems; }},
+    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
+     [](const S& s) { return FamiliesToJson(s.store); }},
     {"runs", "integer", "problems, each under every policy",
      [](const S& s) -> Json { return s.counts().runs; }},
     {"failures", "counters",
@@ -208,8 +213,7 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"existence_solved", "integer", "", [](const S& s) -> Json { return s.totals.existence.solved; }},
     {"compared", "integer", "", [](const S& s) -> Json { return s.totals.agreement.compared; }},
     {"enumerated", "integer", "", [](const S& s) -> Json { return s.totals.agreement.enumerated; }},
-    {"disagreements_of_methods", "integer", "",
-     [](const S& s) -> Json { return s.totals.agreement.disagreements; }},
+    {"disagreements_of_methods", "integer", "", [](const S& s) -> Json { return s.totals.disagreements; }},
     {"safety_decided", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safety_decided; }},
     {"safe", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe; }},
     {"safe_gave_up", "integer", "", [](const S& s) -> Json { return s.totals.agreement.safe_gave_up; }},
@@ -263,9 +267,7 @@ Json SummaryToJson(const Store& store) {
     WriteTold<O>(kOptimizedMembers,
                  {store, std::move(campaign), YieldOf(store), KeptOf(store), store.TotalWork()}, summary);
   }
-  try {
-    summary.dump();
-  } catch (const Json::exception&) {
+  if (!IsUtf8(summary)) {
     throw InputError(
         "summary: found a signature or another text of the store that is no UTF-8, which JSON asks for");
   }
@@ -287,21 +289,22 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   const Objective& objective = *FindObjective(campaign.objective);
   const Yield yield = YieldOf(store);
   std::string text = fmt::format(
-      "{}: {} candidates in {} units, seed {}\n  objective {}, {}: {}\n  optimizer {}: {} exact runs, which "
+      "{}: {} in {}, seed {}\n  objective {}, {}: {}\n  optimizer {}: {}, which "
       "denied "
-      "{} values of doubles\n",
-      file, Grouped(yield.evaluations), Grouped(yield.units), campaign.seed, objective.name,
-      objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
-      Grouped(yield.confirmations), Grouped(yield.denied));
+      "{} of doubles\n",
+      file, Counted(yield.evaluations, "candidate"), Counted(yield.units, "unit"), campaign.seed,
+      objective.name, objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
+      Counted(yield.confirmations, "exact run"), Counted(yield.denied, "value"));
   const Json remarks = RemarksOf(store.identity());
   for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
   for (const BestLine& best : BestLines(store))
-    text +=
-        fmt::format("  {:18} {} contacts, mu = {}: {}\n", best.generator, best.contacts, best.mu, best.value);
+    text += fmt::format("  {:18} {}, mu = {}: {}\n", best.generator, Counted(best.contacts, "contact"), best.mu,
+                        best.value);
   const Kept kept = KeptOf(store);
   const bool tests = !campaign.solver.name.empty();
-  text += fmt::format("  {} of {} groups kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
-                      kept.finished + kept.pending, kept.finished, tests ? "seen again" : "certified");
+  text += fmt::format("  {} of {} kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
+                      Counted(kept.finished + kept.pending, "group"), kept.finished,
+                      tests ? "seen again" : "certified");
   if (tests) text += GroupsText(store);
   if (kept.pending > 0)
     text += fmt::format("  what is to go is finished by: {}\n",
@@ -309,9 +312,8 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
     text += fmt::format("  {}\n", time);
   text += fmt::format(
-      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report; the "
-      "same "
-      "search again goes on.\n",
+      "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report. More "
+      "--minutes or --problems go on from here.\n",
       file, ProgramName());
   return text;
 }

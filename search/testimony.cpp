@@ -233,7 +233,8 @@ void RequireUnderTest(const Witness& witness, const UnderTestKey& key, const Und
                   std::to_string(key.contacts), "one of the campaign's");
   std::int64_t ends = 0;
   ForEachCounter(tally, [&ends](std::string_view name, std::int64_t count) {
-    if (name != "problems" && name != "leak" && name != "misses_coulomb") ends += count;
+    const bool is_beside = name == "leak" || name == "misses_coulomb" || name == "neither";
+    if (name != "problems" && !is_beside) ends += count;
   });
   witness.Require(ends == tally.problems, "under_test", fmt::format("{} ends", ends),
                   fmt::format("as many as problems, {}", tally.problems));

@@ -35,15 +35,6 @@ Answer<Scalar> RunBaraffInSpace(const ContactProblem<Scalar>& problem, const Sol
 }
 
 template <class Scalar>
-Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
-  FastSolver<Scalar> solver({options.tolerances, options.limits, AimOf<Scalar>(options)});
-  auto answer = AnswerOf<Scalar>(solver.Run(problem));
-  answer.f = solver.f();
-  if (answer.Solved()) answer.word = solver.Word();
-  return answer;
-}
-
-template <class Scalar>
 Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
   ProximalOptions proximal;
   proximal.residual = proximal.aim = AimOf<Scalar>(options);
@@ -53,6 +44,24 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOpt
   auto answer = AnswerOf<Scalar>(solver.Run(sparse));
   answer.f = solver.f();
   return answer;
+}
+
+// Where masses or jams are beyond what pivots of this scalar tell apart, proximal points may still be found.
+template <class Scalar>
+Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const SolveOptions& options,
+                       Trace<Scalar>* trace) {
+  FastSolver<Scalar> solver({options.tolerances, options.limits, AimOf<Scalar>(options)});
+  auto answer = AnswerOf<Scalar>(solver.Run(problem));
+  answer.f = solver.f();
+  if (answer.Solved()) {
+    answer.word = solver.Word();
+    return answer;
+  }
+  if (options.limits.Stopped()) return answer;
+  Answer<Scalar> other = RunProximal(problem, options, trace);
+  if (!other.Solved()) return answer;
+  other.counters.insert(other.counters.begin(), answer.counters.begin(), answer.counters.end());
+  return other;
 }
 
 template <class Scalar>
@@ -111,7 +120,7 @@ Method<Scalar> FastRow() {
   return {.name = "fast",
           .title =
               "projected Gauss-Seidel, then block pivoting; in space semismooth Newton; the published "
-              "algorithm and complete driving behind them",
+              "algorithm, complete driving and proximal points behind them",
           .source = "solver/numeric/fast.h, solver/numeric/coulomb.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
           .automatic = true,
@@ -125,7 +134,6 @@ Method<Scalar> ProximalRow() {
           .title = "proximal points, each by Newton's method over a sparse A",
           .source = "solver/numeric/proximal.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
-          .automatic = true,
           .plane = {&RunProximal<Scalar>, true},
           .space = {}};
 }

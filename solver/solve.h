@@ -9,7 +9,8 @@
 //   run       the method
 //   restore   rows, contacts and units of the whole problem
 //   gate      `solved` is said of forces whose own errors, with a = A f + b computed anew and its rounding
-//             bounded, are at most the stated bound; whatever else claims to be solved is `undecided`
+//             bounded, are at most the stated bound (gate.h); forces that nearly are so are refined
+//             (numeric/refine.h); whatever else claims to be solved is `undecided`
 //
 // Over exact scalars nothing is scaled, and the gate is the verification of certify.
 //
@@ -29,6 +30,7 @@
 
 #include "solver/problem/answer.h"
 #include "solver/problem/enclosure.h"
+#include "solver/problem/errors.h"
 #include "solver/problem/options.h"
 #include "solver/problem/problem.h"
 
@@ -45,12 +47,6 @@ struct SolveOptions {
 
   bool operator==(const SolveOptions&) const = default;
 };
-
-// Errors (problem/errors.h) up to which forces of a scalar are called a solution, where nobody asks for others.
-template <class Scalar>
-inline constexpr double kSolvedResidual = 1e-8;
-template <>
-inline constexpr double kSolvedResidual<float> = 1e-6;
 
 template <class Scalar>
 using MethodRun = Answer<Scalar> (*)(const ContactProblem<Scalar>&, const SolveOptions&, Trace<Scalar>*);

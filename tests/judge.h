@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "certify/exact/judge.h"
+#include "certify/exact/neighbour.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
@@ -36,12 +36,12 @@ inline std::string FaultOf(const ExactProblem& problem, const ExactAnswer& answe
   return violation ? "called solved: " + *violation : "";
 }
 
-inline std::string FaultOf(const ExactProblem& problem, const InexactAnswer& answer, double bound) {
+inline std::string FaultOf(const ExactProblem& problem, const InexactAnswer& answer, const Gate& gate) {
   if (answer.f.size() != problem.rows()) return "solved without forces";
   if (!answer.f.allFinite()) return "forces that are not finite";
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const Rational most = Rational(bound) * (1 + Rational(1, 1 << 30));  // roots round
-  const auto fault = FindMiss(problem, f, answer.law, most);
+  const double slack = 1 + 1e-9;  // roots round
+  const auto fault = FindMiss(problem, f, answer.law, Gate{gate.eps * slack, gate.tau * slack});
   return fault ? "called solved: " + *fault : "";
 }
 
@@ -53,10 +53,10 @@ inline std::string FaultOf(const ExactProblem& problem, const SolveRequest& requ
   const bool filtered = request.arithmetic == Arithmetic::kFiltered;  // to the end, or with rounded forces
   const ExactProblem ran = filtered && exact ? problem : AsRun(problem, request.arithmetic);
   if (exact) return FaultOf(ran, *exact);
-  const double usual =
-      request.arithmetic == Arithmetic::kFloat ? kSolvedResidual<float> : kSolvedResidual<double>;
-  const double bound = request.options.residual > 0 ? request.options.residual : usual;
-  return FaultOf(ran, std::get<InexactAnswer>(solution.answer), bound);
+  const double residual = request.options.residual;
+  const Gate gate =
+      request.arithmetic == Arithmetic::kFloat ? GateOf<float>(residual) : GateOf<double>(residual);
+  return FaultOf(ran, std::get<InexactAnswer>(solution.answer), gate);
 }
 
 }  // namespace stiction::testing

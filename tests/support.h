@@ -15,6 +15,7 @@
 #include "search/generators/exponential.h"
 #include "search/generators/generators.h"
 #include "solver/complete/polygon_errors.h"
+#include "solver/problem/lenient.h"
 
 namespace stiction::testing {
 
@@ -30,18 +31,29 @@ inline bool Short() {
 // So many, or a quarter of them.
 inline int Few(int count) { return Short() ? count / 4 : count; }
 
-// The largest error of forces: of Coulomb's law, of (21), (22), of the law on polygons.
+// The largest strict error of forces, of whatever scalar, at one theta: of Coulomb's law, of (21), (22), of the
+// law on polygons.
 template <class Problem, class Vector>
-auto ErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
-  return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
+auto ErrorOf(const Problem& problem, const Vector& f, const Vector& a,
+             FrictionLaw law = FrictionLaw::kCoulomb) {
+  using Scalar = typename Vector::Scalar;
+  ErrorMeter<Scalar> meter;
+  return MeasureErrors(problem, law, f, a, meter, Scalar(Scalar(1) / Scalar(1024))).Largest();
 }
 template <class Problem, class Vector>
 auto WeakErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
-  return MeasureErrors(problem, FrictionLaw::kBaraff, f, a).Largest();
+  return ErrorOf(problem, f, a, FrictionLaw::kBaraff);
+}
+// The lenient one, of what a method takes for solved before the gate looks.
+template <class Problem, class Vector>
+auto LenientErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
+  LenientUnits<typename Vector::Scalar> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
 }
 template <class Problem, class Polygons, class Vector>
 auto PolygonErrorOf(const Problem& problem, const Polygons& polygons, const Vector& f, const Vector& a) {
-  return PolygonErrors(problem, polygons, f, a).Largest();
+  using Scalar = typename Vector::Scalar;
+  return PolygonErrors(problem, polygons, f, a, Scalar(1)).Largest();
 }
 
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }

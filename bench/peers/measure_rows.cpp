@@ -11,7 +11,7 @@
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
 #include "corpus/json.h"
-#include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 
 namespace stiction {
 namespace {
@@ -37,7 +37,9 @@ int GroupOf(const PeerProblem& problem) {
 double ResidualOf(const Contender& contender, const PeerProblem& problem) {
   const Eigen::VectorXd f = contender.Forces();
   if (f.size() != problem.rows()) return kInfinity;
-  return BoundErrors(problem, FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
+  const Eigen::VectorXd a = problem.A * f + problem.b;
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
 }
 
 // Whether the first problem is solved within so many seconds of processor time, rounded up, by a child.

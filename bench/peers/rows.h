@@ -5,7 +5,7 @@
 //           problems where one is too short for the clock. No problem is solved twice in a row, which would
 //           teach the processor its branches.
 // ratio     of the times of the same group, to the first row
-// answers   solved: an error of at most kWrong by the gate's measure (solver/problem/errors.h), in space of
+// answers   solved: a lenient error of at most kWrong (solver/problem/lenient.h), in space of
 //           Coulomb's law, whatever is claimed; wrong: anything else; silent: wrong and called a success;
 //           refused: called a failure, right or wrong.
 // capped    a contender that needs more than a bound for the first problem, or dies on it: tried in a process

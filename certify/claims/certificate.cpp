@@ -53,9 +53,13 @@ void RequireFewRows(const Json& problem) {
   std::size_t rows = 0;
   for (const Json& contact : problem["contacts"])
     rows += contact.is_object() && contact.contains("mu") ? with_friction : 1;
-  if (rows <= kMostRowsOfCertificate) return;
-  throw Rejected{"problem.contacts", fmt::format("contacts of {} rows", rows),
-                 fmt::format("at most {}", kMostRowsOfCertificate)};
+  if (rows > kMostRowsOfCertificate)
+    throw Rejected{"problem.contacts", fmt::format("contacts of {} rows", rows),
+                   fmt::format("at most {}", kMostRowsOfCertificate)};
+  const std::int64_t most = BudgetOf::Now().MostCells(), cells = static_cast<std::int64_t>(rows * rows);
+  if (cells > most)
+    RefuseCost(fmt::format("{} rows, a matrix of {} entries", rows, cells),
+               fmt::format(" of {}, by its length of {}", most, BudgetOf::Now().length));
 }
 
 // Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no
@@ -96,9 +100,10 @@ std::int64_t AllDigits(const Json& json) {
 // Before any is read.
 void RequireFewDigits(const Json& certificate) {
   const std::int64_t digits = AllDigits(certificate["problem"]) + AllDigits(certificate["witness"]);
-  if (digits <= kMostDigitsOfCertificate) return;
-  throw Rejected{"certificate", fmt::format("numbers of {} digits", digits),
-                 fmt::format("at most {} in all", kMostDigitsOfCertificate)};
+  const std::int64_t most = BudgetOf::Now().MostDigits();
+  if (digits > most)
+    RefuseCost(fmt::format("numbers of {} digits", digits),
+               fmt::format(" of {} in all, by its length of {}", most, BudgetOf::Now().length));
 }
 
 std::string ReasonOf(const Rejected& rejected) {
@@ -111,8 +116,9 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
   CheckReport report;
   try {
     WitnessCheck& check = ReadClaim(certificate, report);
-    RequireFewRows(certificate["problem"]);
+    const BudgetOf budget({&certificate["problem"], &certificate["witness"]});
     RequireFewDigits(certificate);
+    RequireFewRows(certificate["problem"]);
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);
     report.digest = ProblemDigest(problem);
     if (!digest.empty() && report.digest != digest) {

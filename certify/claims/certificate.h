@@ -61,12 +61,9 @@ struct CheckReport {
 };
 
 // A certificate comes from anywhere; no honest one has come near these, nor near kMostJsonDepth and
-// kMostCharactersOfNumber.
+// kMostCharactersOfNumber. All else that bounds a check goes by the length of what is read: Budget (witness.h).
 inline constexpr std::size_t kMostBytesOfCertificate = std::size_t{1} << 25;
 inline constexpr int kMostRowsOfCertificate = 3000;
-// Of all its numbers together, numerators and denominators, as they are written with their exponents written
-// out.
-inline constexpr std::int64_t kMostDigitsOfCertificate = 20'000'000;
 
 // `source` names the certificate in reasons; `digest`, where it is not empty, is that of the problem which the
 // certificate must speak of. Never throws for a bad certificate.

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certify/claims/claim_answer.h"
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
 #include "corpus/json.h"
@@ -35,14 +36,13 @@ struct Claim {
   std::string_view name;
   WitnessCheck* check = nullptr;  // null where certificates bear other names
 
-  // Of what can be asked for by name; negations come in their place.
-  std::string_view meaning = {};
-  // The certificate of the claim or of its negation. Where nothing that was run shows either: null, or a text
-  // that says why.
-  Json (*certify)(const ExactProblem&, const ClaimOptions&) = nullptr;
+  std::string_view meaning = {};  // in words
+  // Whether it is so; null where the claim is not asked for by this name.
+  ClaimAnswer (*certify)(const ExactProblem&, const ClaimOptions&) = nullptr;
   // InputError, by its place in `source`, for a problem of which it is not made.
   void (*require)(const ExactProblem&, const std::string& source) = RequireAny;
   std::string_view proves = {};  // in words, of solutions; empty for what speaks of something else
+  bool negative = false;         // whether it says that another claim is false
 };
 
 // The claims of a file. Files are told in the order of their places.
@@ -51,10 +51,10 @@ struct ClaimRows {
   std::span<const Claim> claims;
 };
 
-// Makers that take the problem alone.
+// Makers that take the problem alone, and decide it.
 template <Json (*Make)(const ExactProblem&)>
-Json Alone(const ExactProblem& problem, const ClaimOptions&) {
-  return Make(problem);
+ClaimAnswer Alone(const ExactProblem& problem, const ClaimOptions&) {
+  return ByCertificate(Make(problem));
 }
 
 // What claims are made of: planar problems; those in space; planar problems of frictionless and static

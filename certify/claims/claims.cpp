@@ -29,7 +29,7 @@ Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::s
     names.push_back(claim.name);
     if (claim.name != name) continue;
     claim.require(problem, source);
-    return claim.certify(problem, options);
+    return ToJson(claim.certify(problem, options), name);
   }
   throw InputError(source, "claim", std::string(name), fmt::format("one of {}", fmt::join(names, ", ")));
 }

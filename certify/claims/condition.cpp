@@ -177,15 +177,16 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
                    ToString(problem.A(pair->first, pair->second)),
                    ToString(problem.A(pair->second, pair->first)) + ", as across the diagonal"};
   }
-  const ExactVector d = ReadVector(witness["scaling"], "witness.scaling", problem.rows());
+  const int n = problem.rows();
+  Cost(EliminationOperations(n, 2));
+  const ExactVector d = ReadVector(witness["scaling"], "witness.scaling", n);
   for (int i = 0; i < d.size(); ++i) {
     if (d[i] <= 0) throw Rejected{ElementPath("witness.scaling", i), ToString(d[i]), "a number > 0"};
   }
   const Rational least = ReadNumber(witness["least"], "witness.least");
   const Rational most = ReadNumber(witness["most"], "witness.most");
   if (least <= 0) throw Rejected{"witness.least", ToString(least), "a number > 0"};
-  const int n = problem.rows();
-  Cost(EliminationOperations(problem, 2)).AllRows(problem).Vector(d, 2 * n).Numbers({{least, most}}, n);
+  Cost(EliminationOperations(n, 2)).AllRows(problem).Vector(d, 2 * n).Numbers({{least, most}}, n);
   const ExactMatrix B = Scaled(problem.A, d), I = ExactMatrix::Identity(B.rows(), B.cols());
   if (!IsSemidefinite(B - least * I)) {
     throw Rejected{"witness.least", ToString(least), "no more than the least eigenvalue of DAD"};
@@ -202,7 +203,13 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
 
 namespace {
 
-Json ByCondition(const ExactProblem& problem) { return ConditionCertificate(problem).value_or(Json()); }
+// An unsafe problem shows that its condition number is not enough.
+ClaimAnswer ByCondition(const ExactProblem& problem, const ClaimOptions&) {
+  if (auto found = ConditionCertificate(problem)) return ByCertificate(std::move(*found));
+  Json safety = SafetyCertificateIfDecided(problem);
+  if (safety.is_object() && safety["claim"] == "unsafe") return ByCertificate(std::move(safety));
+  return ByCertificate(nullptr, "no scaling was found under which the condition number of A is small enough");
+}
 void RequireConditionIsSaid(const ExactProblem& problem, const std::string& source) {
   RequireHandled(problem, source, "safety");
 }
@@ -211,7 +218,7 @@ void RequireConditionIsSaid(const ExactProblem& problem, const std::string& sour
 
 ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,
-                                            "its condition number alone shows that it is", Alone<ByCondition>,
+                                            "its condition number alone shows that it is", ByCondition,
                                             RequireConditionIsSaid}};
   return {60, kClaims};
 }

@@ -32,12 +32,14 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "certify/claims/existence.h"
 #include "certify/exact/centring.h"
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
 #include "certify/exact/properties.h"
 #include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
+#include "solver/problem/gate.h"
 #include "solver/problem/units.h"
 #include "solver/solve.h"
 
@@ -289,6 +291,13 @@ ExactMatrix ReadSquare(const Json& json, const std::string& path, int size) {
   return M;
 }
 
+// Of Krawczyk's test.
+double BoxOperations(const ExactProblem& problem, std::size_t fixed, std::int64_t unknowns) {
+  const auto size = static_cast<double>(std::max<std::int64_t>(unknowns, 0));
+  return ProductOperations(problem.rows(), 2 * static_cast<double>(fixed) + 4) +
+         ProductOperations(size, 2 * size + 4);
+}
+
 // Of all that is multiplied with each other.
 void RequireCheap(const ExactProblem& problem, int size, const FixedForces& fixed, const ExactVector& x,
                   const Rational& radius, const ExactMatrix& inverse) {
@@ -300,8 +309,7 @@ void RequireCheap(const ExactProblem& problem, int size, const FixedForces& fixe
   }
   for (const Contact<Rational>& contact : problem.contacts)
     friction.insert(friction.end(), {contact.mu, contact.slip[0], contact.slip[1]});
-  const double square = static_cast<double>(size) * size + 8.0 * size;
-  Cost(ProductOperations(problem, static_cast<double>(fixed.size()) + 2) + std::floor((size + 2) * square / 8))
+  Cost(BoxOperations(problem, fixed.size(), size))
       .LongestRow(problem)
       .Numbers(point, 2)
       .Numbers(friction, 2)
@@ -328,6 +336,9 @@ Json CheckCoulombExact(const ExactProblem& problem, const Json& witness) {
   Layout layout(problem, ReadBehaviors(witness["modes"], problem));
   const Rational radius = ReadNumber(witness["radius"], "witness.radius");
   if (radius <= 0) throw Rejected{"witness.radius", ToString(radius), "a number > 0"};
+  RequireList(witness["fixed"], "witness.fixed");
+  const std::size_t fixed_rows = witness["fixed"].size();  // that they are as many is seen below
+  Cost(BoxOperations(problem, fixed_rows, layout.size - static_cast<std::int64_t>(fixed_rows)));
   const FixedForces fixed = ReadFixed(witness["fixed"], layout);
   const ExactVector x = ReadVector(witness["x"], "witness.x", layout.size);
   const ExactMatrix inverse = ReadSquare(witness["inverse"], "witness.inverse", layout.size);
@@ -380,9 +391,12 @@ struct ContactUnits {
   std::vector<double> force, acceleration;
 };
 
-ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f, const Doubles::Vector& a) {
-  Units<double> of_rows;
-  of_rows.Take(problem, f, a);
+// Of forces by what acts, of accelerations by what the gate asks of them: beside a jam a slow slip is one.
+ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f) {
+  LenientUnits<double> of_rows;
+  of_rows.Take(problem, f);
+  GateMeter<double> gate;
+  gate.Bound(problem, FrictionLaw::kCoulomb, f, GateOf<double>());
   ContactUnits units;
   int row = 0;
   for (const Contact<double>& contact : problem.contacts) {
@@ -390,7 +404,7 @@ ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f, const Dou
     double force = 0, acceleration = 0;
     for (; row < end; ++row) {
       force = std::max(force, of_rows.force(row));
-      acceleration = std::max(acceleration, of_rows.acceleration(row));
+      acceleration = std::max(acceleration, gate.meter().unit(row));
     }
     units.force.push_back(force > 0 ? force : 1);
     units.acceleration.push_back(acceleration > 0 ? acceleration : 1);
@@ -607,10 +621,11 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   const Doubles rounded = InDoubles(problem);
   Doubles::Vector f = ForcesNear(rounded, limits);
   const Doubles::Vector a = rounded.A * f + rounded.b;
-  const ContactUnits units = UnitsOf(rounded, f, a);
+  const ContactUnits units = UnitsOf(rounded, f);
   Layout layout(problem, BehaviorsNear(problem, a, units));
   const Eigen::VectorXd centred = CentredForces(rounded, layout, f, a);
   for (std::size_t k = 0; k < layout.kept.size(); ++k) f[layout.kept[k]] = centred[k];
+  if (!f.allFinite()) throw NothingShown{"no forces were found in the middle of those that are allowed"};
   FixedForces fixed = FixDependent(problem, rounded, layout);
   Doubles::Vector given = Doubles::Vector::Zero(f.size());
   for (auto& [row, force] : fixed) {
@@ -621,14 +636,19 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   Improve(rounded, layout, given, x);
   const BoxSystem<double> system(rounded, layout, given, x);
   RequireNondegenerate(rounded, layout, system, units);
-  return FindBox(problem, layout, fixed, x, system.Slopes().inverse());
+  const Eigen::MatrixXd inverse = system.Slopes().inverse();
+  if (!inverse.allFinite()) throw NothingShown{"the equations of these modes are singular over doubles"};
+  return FindBox(problem, layout, fixed, x, inverse);
 }
 
-Json OfCoulombExact(const ExactProblem& problem, const ClaimOptions& o) {
+// Where no box is found, there may be no solution at all.
+ClaimAnswer OfCoulombExact(const ExactProblem& problem, const ClaimOptions& o) {
   try {
-    return CertifyBox(problem, o.limits);
+    return ByCertificate(CertifyBox(problem, o.limits));
   } catch (const NothingShown& nothing) {
-    return nothing.why;
+    Json found = DecideExistence(problem, o.limits, o.enumeration, FrictionLaw::kCoulomb).certificate;
+    const bool none = found.is_object() && found["claim"] == "no-solution";
+    return ByCertificate(none ? std::move(found) : Json(), nothing.why);
   }
 }
 

@@ -5,16 +5,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "certify/claims/existence.h"
+#include "certify/claims/policy_ends.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/loops_in_space.h"
 #include "certify/exact/properties.h"
+#include "corpus/grouped.h"
 #include "corpus/json.h"
+#include "corpus/record/loop_sentence.h"
 #include "solver/published/published_space.h"
 
 namespace stiction {
@@ -40,11 +44,11 @@ Json RunToJson(const ExactRun& run, const std::vector<std::string>& names) {
 }
 
 // A run for each sequence of steps that ends in a cycle, whichever policies led to it.
-Json CyclesToJson(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+Json CyclesToJson(const ExactProblem& problem, const std::vector<PolicyEnds>& ends, const Limits& limits) {
   const std::vector<std::string> names = VariableNames(problem);
   Json runs = Json::array();
-  for (const PolicyClass& equal : RunPolicies(problem, policies, limits)) {
-    if (equal.verdict.outcome != Outcome::kCycle) continue;
+  for (const PolicyEnds& equal : ends) {
+    if (equal.outcome != Outcome::kCycle) continue;
     Json run = RunToJson(RunExact(problem, {equal.policies.front(), {}, limits}), names);
     Json named = Json::array();
     for (const Policy& policy : equal.policies) named.push_back(PolicyName(policy));
@@ -114,11 +118,28 @@ Json CertificateInSpace(const char* claim, const ExactProblem& problem, const st
 
 }  // namespace
 
+namespace {
+
+Json CyclesCertificate(const ExactProblem& problem, const std::vector<PolicyEnds>& ends, const Limits& limits) {
+  const Json runs = CyclesToJson(problem, ends, limits);
+  return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
+}
+
+// A, definite, and a solution, with these runs.
+Json CounterexampleOf(const ExactProblem& problem, const LdltFactors& factors, const Json& solution,
+                      Json runs) {
+  Json witness = FactorsToJson(factors);
+  witness.update(solution["witness"]);
+  witness["runs"] = std::move(runs);
+  return MakeCertificate("counterexample", problem, std::move(witness));
+}
+
+}  // namespace
+
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
   if (problem.dimension == 3)
     return CertificateInSpace("cycle", problem, policies, limits, ProveLoopInSpace, LoopToJson);
-  const Json runs = CyclesToJson(problem, policies, limits);
-  return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
+  return CyclesCertificate(problem, EndsUnder(policies, problem, limits), limits);
 }
 
 Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
@@ -128,12 +149,8 @@ Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Po
   const auto* factors = std::get_if<LdltFactors>(&decision);
   const Json solution = DecideExistence(problem, limits).certificate;
   if (factors == nullptr || solution.is_null()) return nullptr;  // a definite A has a solution
-  const Json runs = CyclesToJson(problem, policies, limits);
-  if (runs.empty()) return nullptr;
-  Json witness = FactorsToJson(*factors);
-  witness.update(solution["witness"]);
-  witness["runs"] = runs;
-  return MakeCertificate("counterexample", problem, std::move(witness));
+  Json runs = CyclesToJson(problem, EndsUnder(policies, problem, limits), limits);
+  return runs.empty() ? Json() : CounterexampleOf(problem, *factors, solution, std::move(runs));
 }
 
 // ---- Checking ----------------------------------------------------------------------------------
@@ -223,7 +240,7 @@ ExactRun RequireCycle(const ExactProblem& problem, const Policy& policy, const J
 std::string StepsAsText(const ExactRun& run, const std::vector<std::string>& names) {
   Json steps = Json::array({CycleStateToJson(run, names)});
   for (const Pivot<Rational>& pivot : run.trace.pivots) steps.push_back(PivotToJson(pivot, names));
-  return steps.dump();
+  return JsonText(steps);
 }
 
 // The different values of a key, in order.
@@ -237,12 +254,13 @@ std::size_t LengthOf(const Json& run, const char* key) {
   return run.is_object() && run.contains(key) && run[key].is_array() ? run[key].size() : 0;
 }
 
-// As many steps as are stated of every policy, each by an elimination.
+// One step more than are stated, for every policy.
 void RequireFewSteps(const ExactProblem& problem, const Json& runs) {
-  double steps = 0;
+  double operations = 0;
   for (const Json& run : runs)
-    steps += static_cast<double>(LengthOf(run, "policies")) * static_cast<double>(LengthOf(run, "pivots") + 1);
-  Cost(ReducedOperations(problem, steps)).AllRows(problem);
+    operations += StepOperations(problem.rows(), static_cast<double>(LengthOf(run, "policies"))) *
+                  static_cast<double>(LengthOf(run, "pivots") + 1);
+  Cost(operations).AllRows(problem);
 }
 
 Json CheckRuns(const ExactProblem& problem, const Json& witness) {
@@ -296,6 +314,16 @@ std::vector<std::string> ReadWord(const Json& witness) {
   return word;
 }
 
+// One step more than are stated, with a derivative for every coordinate.
+void RequireFewStepsInSpace(const ExactProblem& problem, const Json& witness) {
+  if (!witness.is_object() || !witness.contains("bits")) return;  // refused where it is read
+  const double steps = static_cast<double>(LengthOf(witness, "word") + 1);
+  const double coordinates = static_cast<double>(LengthOf(witness, "radii"));
+  Cost(StepInSpaceOperations(problem.rows(), coordinates, steps))
+      .AddBits(ReadBits(witness))
+      .LongestRow(problem);
+}
+
 LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   const bool punctured = witness.contains("kind") && witness["kind"] == "punctured";
   const bool box = punctured || (witness.contains("kind") && witness["kind"] == "box");
@@ -335,11 +363,10 @@ void RequireRunInSpace(const ExactProblem& problem) {
 
 Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness, bool endless) {
   RequireRunInSpace(problem);
+  RequireFewStepsInSpace(problem, witness);
   LoopInSpace loop = ReadLoop(problem, witness);
   loop.endless = endless;
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
-  const auto steps = static_cast<double>(loop.word.size() + 1) * static_cast<double>(1 + loop.charts.size());
-  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * loop.bits).LongestRow(problem);
   if (const auto fault = FindLoopFault(problem, policy, loop))
     throw Rejected{"witness." + fault->place, fault->found, fault->expected};
   return {{"policies", 1},
@@ -353,9 +380,8 @@ Json CheckRay(const ExactProblem& problem, const Json& witness) {
   RequireRunInSpace(problem);
   RequireKeys(witness, "witness", {"policy", "bits", "word"});
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
+  RequireFewStepsInSpace(problem, witness);
   const RayInSpace ray = {ReadBits(witness), ReadWord(witness)};
-  const auto steps = static_cast<double>(ray.word.size() + 1);
-  Cost(ReducedOperations(problem, 8 * steps)).AddBits(2 * ray.bits).LongestRow(problem);
   if (const auto fault = FindRayFault(problem, policy, ray))
     throw Rejected{"witness." + fault->place, fault->found, fault->expected};
   return {{"policies", 1}, {"steps", ray.word.size()}};
@@ -380,17 +406,114 @@ Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-Json OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
-  return CycleCertificate(problem, o.policies, o.limits);
+// Of which policies the certificate speaks, where these are not all; of one policy how its run goes on.
+void TellCertified(ClaimAnswer& answer) {
+  if (!answer.certificate.is_object()) return;
+  const std::vector<Policy> named = CertifiedPolicies(answer.certificate);
+  PolicyCounts& counts = *answer.policies;
+  counts.certified = static_cast<std::int64_t>(named.size());
+  if (counts.asked == 1) {
+    const std::string policy = PolicyName(named.front());
+    answer.reason = fmt::format("under {} {}", policy, LoopSentence(ProvedRunOf(answer.certificate, policy)));
+  } else if (counts.certified < counts.asked) {
+    answer.reason += fmt::format("; the certificate is of {} of the {}", Grouped(counts.certified),
+                                 Counted(counts.asked, "policy"));
+  }
 }
-Json OfRay(const ExactProblem& problem, const ClaimOptions& o) {
-  return CertificateInSpace("ray", problem, o.policies, o.limits, ProveRayInSpace, RayToJson);
+
+// In space, of one policy: that it loops refutes that it ends in a ray, and the other way round.
+Json OppositeInSpace(const ExactProblem& problem, const PolicyEnds& end, const Limits& limits) {
+  if (end.outcome == Outcome::kCycle) return CycleCertificate(problem, end.policies, limits);
+  if (end.outcome == Outcome::kRay)
+    return CertificateInSpace("ray", problem, end.policies, limits, ProveRayInSpace, RayToJson);
+  return nullptr;
 }
-Json OfEndless(const ExactProblem& problem, const ClaimOptions& o) {
-  return CertificateInSpace("endless", problem, o.policies, o.limits, ProveEndlessInSpace, LoopToJson);
+
+// Those under which it is so.
+std::vector<Policy> PoliciesOf(const std::vector<PolicyEnds>& ends, const EndState& state) {
+  std::vector<Policy> policies;
+  for (const PolicyEnds& end : ends) {
+    if (state(end) == ClaimState::kProved)
+      policies.insert(policies.end(), end.policies.begin(), end.policies.end());
+  }
+  return policies;
 }
-Json OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
-  return CounterexampleCertificate(problem, o.policies, o.limits);
+
+// Of the first policy that a proof is found for; where the only one ends otherwise, of how it does.
+template <class Prove, class ToJson>
+ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const ClaimOptions& o,
+                          const ClaimedVerb& verb, const EndState& state, Prove prove, ToJson to_json) {
+  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+  ClaimAnswer answer = AnswerOfEnds(ends, verb, state);
+  answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), o.limits, prove, to_json);
+  TellCertified(answer);
+  if (answer.policies->so > 0 && answer.certificate.is_null() && answer.state == ClaimState::kProved) {
+    answer.state = ClaimState::kNotDecided;
+    answer.reason += ", as intervals say; no certificate of it was found";
+  }
+  if (ends.size() == 1 && answer.state == ClaimState::kDisproved)
+    answer.certificate = OppositeInSpace(problem, ends.front(), o.limits);
+  return answer;
+}
+
+constexpr ClaimedVerb kLoops = {"loops", "loop"};
+
+ClaimAnswer OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
+  const EndState loops = EndsIn(Outcome::kCycle);
+  if (problem.dimension == 3)
+    return AnswerInSpace("cycle", problem, o, kLoops, loops, ProveLoopInSpace, LoopToJson);
+  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+  ClaimAnswer answer = AnswerOfEnds(ends, kLoops, loops);
+  answer.certificate = CyclesCertificate(problem, ends, o.limits);
+  TellCertified(answer);
+  return answer;
+}
+
+ClaimAnswer OfRay(const ExactProblem& problem, const ClaimOptions& o) {
+  return AnswerInSpace("ray", problem, o,
+                       {"comes to a step that nothing limits", "come to a step that nothing limits"},
+                       EndsIn(Outcome::kRay), ProveRayInSpace, RayToJson);
+}
+
+// Of a run that loops: whether no state recurs, whether one does, or neither is shown.
+ClaimState RepeatsNoState(const ExactProblem& problem, const PolicyEnds& end, const Limits& limits) {
+  const ClaimState ends = EndsIn(Outcome::kCycle)(end);
+  if (ends != ClaimState::kProved) return ends;
+  const Policy& policy = end.policies.front();
+  if (ProveEndlessInSpace(problem, policy, limits)) return ClaimState::kProved;
+  const auto loop = ProveLoopInSpace(problem, policy, limits);
+  return loop && !loop->IsBox() ? ClaimState::kDisproved : ClaimState::kNotDecided;
+}
+
+ClaimAnswer OfEndless(const ExactProblem& problem, const ClaimOptions& o) {
+  std::map<std::string, ClaimState> known;  // by policy: each is looked at once
+  const EndState repeats_none = [&](const PolicyEnds& end) {
+    const std::string name = PolicyName(end.policies.front());
+    const auto found = known.find(name);
+    if (found != known.end()) return found->second;
+    return known[name] = RepeatsNoState(problem, end, o.limits);
+  };
+  return AnswerInSpace("endless", problem, o,
+                       {"never ends and repeats no state", "never end and repeat no state"}, repeats_none,
+                       ProveEndlessInSpace, LoopToJson);
+}
+
+// Of A and of solutions first, then of the policies.
+ClaimAnswer OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
+  if (!IsSymmetric(problem)) return ByCertificate(SymmetryCertificate(problem));
+  const auto decision = DecideDefinite(problem.A);
+  const auto* factors = std::get_if<LdltFactors>(&decision);
+  if (factors == nullptr) return ByCertificate(DefiniteCertificate(problem));
+  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+  ClaimAnswer answer = AnswerOfEnds(ends, kLoops, EndsIn(Outcome::kCycle));
+  Json runs = CyclesToJson(problem, ends, o.limits);
+  if (runs.empty()) return answer;
+  const Existence existence = DecideExistence(problem, o.limits, o.enumeration);
+  if (existence.certificate.is_null() || existence.certificate["claim"] != "solution-exists")
+    return ByCertificate(nullptr, "no solution was found, though A is definite: " + existence.reason);
+  answer.certificate = CounterexampleOf(problem, *factors, existence.certificate, std::move(runs));
+  TellCertified(answer);
+  return answer;
 }
 
 }  // namespace
@@ -417,8 +540,8 @@ ClaimRows CycleClaims() {
       Claim{"endless", CheckEndless, "in space the published algorithm never ends, and repeats no state",
             OfEndless, RequireLoopsInSpace},
       Claim{"counterexample", CheckCounterexample,
-            "it does, though A is definite and there is a solution: all in one file", OfCounterexample,
-            RequirePlanar}};
+            "it does, though A is symmetric and definite and there is a solution: all in one file",
+            OfCounterexample, RequirePlanar}};
   return {70, kClaims};
 }
 

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "certify/exact/enumerate.h"
@@ -28,6 +29,7 @@ struct Existence {
   // `solution-exists`, of Coulomb's law in space `coulomb-solution`, or `no-solution`; null if undecided.
   Json certificate;
   std::string_view method;  // that decided: complete, fast, lemke, enumerate; or "none"
+  std::string reason = {};  // of what is undecided: how each method ended that was tried
 };
 
 // Any valid problem; the law is that of static contacts in space.

@@ -11,6 +11,7 @@
 #include "certify/claims/by_factors.h"
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "certify/claims/existence.h"
 #include "corpus/json.h"
 
 namespace stiction {
@@ -127,16 +128,28 @@ bool ShowHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
          !FindDualConeViolation(problem, options.factors->c);
 }
 
-Json OfHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
-  if (!ShowHypothesis(problem, options)) return HypothesisCertificate(problem);
-  return MakeCertificate("h", problem, FactorsWitness(*options.factors));
+ClaimAnswer OfHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
+  if (ShowHypothesis(problem, options))
+    return ByCertificate(MakeCertificate("h", problem, FactorsWitness(*options.factors)));
+  return ByCertificate(
+      HypothesisCertificate(problem),
+      "it hangs on the sign of b'v at a point of a friction cone that is not rational, or at its "
+      "edge");
 }
 
-Json OfExists(const ExactProblem& problem, const ClaimOptions& options) {
+// That there is none refutes it; that the theorem does not speak of a problem refutes nothing.
+ClaimAnswer OfExists(const ExactProblem& problem, const ClaimOptions& options) {
+  constexpr std::size_t kFewContacts = 6;  // whose modes are all tried
   if (ShowHypothesis(problem, options))
-    return MakeCertificate("exists", problem, FactorsWitness(*options.factors));
-  const Json certificate = ExistsCertificate(problem);
-  return certificate.is_null() ? Json("'--claim psd' and '--claim h' say what is missing") : certificate;
+    return ByCertificate(MakeCertificate("exists", problem, FactorsWitness(*options.factors)));
+  Json certificate = ExistsCertificate(problem);
+  if (certificate.is_null() && problem.contacts.size() <= kFewContacts) {
+    Json found = DecideExistence(problem, options.limits, options.enumeration).certificate;
+    if (found.is_object() && found["claim"] == "no-solution") certificate = std::move(found);
+  }
+  return ByCertificate(std::move(certificate),
+                       "the theorem does not speak of it: '--claim psd' and '--claim h' say what is missing; "
+                       "'--claim existence' looks for forces");
 }
 
 }  // namespace
@@ -144,7 +157,10 @@ Json OfExists(const ExactProblem& problem, const ClaimOptions& options) {
 ClaimRows HypothesisClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0", OfHypothesis},
-      Claim{"not-h", CheckNotHypothesis},
+      Claim{.name = "not-h",
+            .check = CheckNotHypothesis,
+            .meaning = "b'v < 0 for some v in the friction cones with A v = 0",
+            .negative = true},
       Claim{"exists", CheckExists,
             "psd and h: by a theorem there is a solution, of any size; no forces are given", OfExists,
             RequireTheoremSpeaksOf,

@@ -121,6 +121,7 @@ Json CheckNotSymmetric(const ExactProblem& problem, const Json& witness) {
 // that no number grows beyond the minors of A, whatever L and D are.
 ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
   const int rows = problem.rows();
+  Cost(EliminationOperations(rows, 1)).AllRows(problem);
   const ExactVector D = ReadVector(witness["D"], "witness.D", rows);
   RequireList(witness["L"], "witness.L", static_cast<std::size_t>(rows), "rows");
   ExactMatrix L(rows, rows);
@@ -131,7 +132,6 @@ ExactVector RequireFactors(const ExactProblem& problem, const Json& witness) {
       RequireEqual(L(i, j), i == j ? 1 : 0, fmt::format("witness.L[{}][{}]", i, j));
   }
   RequireSymmetric(problem);
-  Cost(EliminationOperations(problem, 1)).AllRows(problem);
   ExactMatrix rest = problem.A;
   for (int k = 0; k < rows; ++k) {
     for (int i = k; i < rows; ++i)
@@ -217,14 +217,15 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-Json OfSemidefinite(const ExactProblem& problem, const ClaimOptions& options) {
-  if (options.factors == nullptr) return SemidefiniteCertificate(problem);
-  return MakeCertificate("psd", problem, FactorsWitness(*options.factors));
+ClaimAnswer OfSemidefinite(const ExactProblem& problem, const ClaimOptions& options) {
+  if (options.factors == nullptr) return ByCertificate(SemidefiniteCertificate(problem));
+  return ByCertificate(MakeCertificate("psd", problem, FactorsWitness(*options.factors)));
 }
 
-Json OfRange(const ExactProblem& problem, const ClaimOptions& options) {
-  if (options.factors == nullptr || !IsInRangeByFactors(*options.factors)) return RangeCertificate(problem);
-  return MakeCertificate("in-range", problem, FactorsWitness(*options.factors));
+ClaimAnswer OfRange(const ExactProblem& problem, const ClaimOptions& options) {
+  const bool by_factors = options.factors != nullptr && IsInRangeByFactors(*options.factors);
+  return ByCertificate(by_factors ? MakeCertificate("in-range", problem, FactorsWitness(*options.factors))
+                                  : RangeCertificate(problem));
 }
 
 }  // namespace
@@ -232,13 +233,23 @@ Json OfRange(const ExactProblem& problem, const ClaimOptions& options) {
 ClaimRows MatrixClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"symmetric", CheckSymmetric, "A = A'", Alone<SymmetryCertificate>},
-      Claim{"not-symmetric", CheckNotSymmetric},
+      Claim{.name = "not-symmetric",
+            .check = CheckNotSymmetric,
+            .meaning = "an entry of A is unlike its mirror",
+            .negative = true},
       Claim{"psd", CheckSemidefinite, "A is positive semidefinite", OfSemidefinite},
-      Claim{"not-psd", CheckNotSemidefinite},
+      Claim{
+          .name = "not-psd", .check = CheckNotSemidefinite, .meaning = "x'Ax < 0 for some x", .negative = true},
       Claim{"definite", CheckDefinite, "A is positive definite", Alone<DefiniteCertificate>},
-      Claim{"not-definite", CheckNotDefinite},
+      Claim{.name = "not-definite",
+            .check = CheckNotDefinite,
+            .meaning = "x'Ax <= 0 for some x that is not zero",
+            .negative = true},
       Claim{"in-range", CheckInRange, "b is in the range of A", OfRange},
-      Claim{"not-in-range", CheckNotInRange}};
+      Claim{.name = "not-in-range",
+            .check = CheckNotInRange,
+            .meaning = "some y has y'A = 0 and y'b /= 0",
+            .negative = true}};
   return {30, kClaims};
 }
 

@@ -55,7 +55,8 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
   const Json& listed = witness["prefixes"];
   RequireList(listed, "witness.prefixes");
   std::vector<ModeWord> prefixes;
-  const Cost cost = Cost(ProductOperations(problem, static_cast<double>(listed.size()))).LongestRow(problem);
+  const Cost cost =
+      Cost(ProductOperations(problem.rows(), static_cast<double>(listed.size()))).LongestRow(problem);
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::string path = ElementPath("witness.prefixes", k);
     RequireKeys(listed[k], path, {"modes", "y"});
@@ -71,8 +72,10 @@ Json CheckNoSolution(const ExactProblem& problem, const Json& witness) {
 }
 
 ClaimRows NoSolutionClaims() {
-  static constexpr Claim kClaims[] = {
-      Claim{.name = "no-solution", .check = CheckNoSolution, .proves = "no forces meet all conditions"}};
+  static constexpr Claim kClaims[] = {Claim{.name = "no-solution",
+                                            .check = CheckNoSolution,
+                                            .proves = "no forces meet all conditions",
+                                            .negative = true}};
   return {20, kClaims};
 }
 

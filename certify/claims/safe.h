@@ -106,6 +106,8 @@ std::optional<bool> IsSafeIfSmall(const ExactProblem& problem);
 
 // `safe` or `unsafe`.
 Json SafetyCertificate(const ExactProblem& problem);
+// The same; null where there are too many words, the first of them all positive.
+Json SafetyCertificateIfDecided(const ExactProblem& problem);
 
 // WitnessChecks (witness.h). Facts: words, smallest; word, determinant.
 Json CheckSafe(const ExactProblem& problem, const Json& witness);

@@ -74,8 +74,9 @@ Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-Json ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
-  return DecideExistence(problem, o.limits, o.enumeration, law).certificate;
+ClaimAnswer ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
+  Existence existence = DecideExistence(problem, o.limits, o.enumeration, law);
+  return ByCertificate(std::move(existence.certificate), existence.reason);
 }
 
 bool TheoremSpeaksOf(const ExactProblem& problem) {
@@ -83,17 +84,18 @@ bool TheoremSpeaksOf(const ExactProblem& problem) {
 }
 
 // Forces, or that there are none; where neither is found, by the theorem.
-Json OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
-  Json found = ExistingUnder(o.law, problem, o);
-  return found.is_null() && TheoremSpeaksOf(problem) ? ExistsCertificate(problem) : found;
+ClaimAnswer OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
+  ClaimAnswer answer = ExistingUnder(o.law, problem, o);
+  if (!answer.certificate.is_null() || !TheoremSpeaksOf(problem)) return answer;
+  return ByCertificate(ExistsCertificate(problem), answer.reason + "; nor does the theorem speak of it");
 }
 
-Json OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
+ClaimAnswer OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
   return ExistingUnder(FrictionLaw::kBaraff, problem, o);
 }
 
-// The best bound that was found, or null.
-Json OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
+// The best bound that was found.
+ClaimAnswer OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
   return ExistingUnder(FrictionLaw::kCoulomb, problem, o);
 }
 
@@ -102,7 +104,8 @@ Json OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
 ClaimRows SolutionClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"existence", nullptr,
-            "solution-exists, in space by default coulomb-solution (--law), exists or no-solution",
+            "there is a solution: solution-exists, in space by default coulomb-solution (--law), exists; or "
+            "no-solution",
             OfExistence},
       Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
             OfSolution, RequireAny, "forces that meet all conditions"},

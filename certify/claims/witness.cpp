@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 #include "corpus/exact_number.h"
@@ -59,7 +60,9 @@ Rational ReadNumber(const Json& json, const std::string& path) {
 }
 
 std::int64_t ReadInteger(const Json& json, const std::string& path, std::int64_t least) {
-  if (json.is_number_integer() && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
+  const bool fits = json.is_number_unsigned() ? json.get<std::uint64_t>() <= std::uint64_t{INT64_MAX}
+                                              : json.is_number_integer();
+  if (fits && json.get<std::int64_t>() >= least) return json.get<std::int64_t>();
   throw Rejected{path, Shown(json), fmt::format("an integer >= {}", least)};
 }
 
@@ -83,7 +86,7 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
         std::ranges::find_if(modes, [name](Mode m) { return name != nullptr && *name == Name(m); });
     if (mode == modes.end()) {
       const ModeWord all(modes.begin(), modes.end());
-      throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + WordToJson(all).dump()};
+      throw Rejected{ElementPath(path, i), Shown(json[i]), "one of " + JsonText(WordToJson(all))};
     }
     prefix.push_back(*mode);
   }
@@ -92,33 +95,80 @@ ModeWord ReadPrefix(const Json& json, const std::string& path, const ExactProble
 
 // ---- Cost --------------------------------------------------------------------------------------
 
-double ProductOperations(const ExactProblem& problem, double times) {
-  const double n = problem.rows();
-  return std::floor(times * (n * n + 8 * n) / 8);
+namespace {
+
+std::int64_t CharactersOf(std::string_view text) {
+  return std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
 }
 
-double EliminationOperations(const ExactProblem& problem, double times) {
-  const double n = problem.rows();
-  return std::floor(times * (n * n * n + 10 * n * n) / 10);
+std::int64_t LengthOf(const Json& json) {
+  std::int64_t length = 2;
+  if (const auto* text = json.get_ptr<const std::string*>()) return length + CharactersOf(*text);
+  if (json.is_array())
+    for (const Json& item : json) length += LengthOf(item);
+  if (json.is_object())
+    for (const auto& [key, item] : json.items()) length += CharactersOf(key) + LengthOf(item);
+  return length;
 }
 
-double ReducedOperations(const ExactProblem& problem, double times) {
-  const double n = problem.rows();
-  return std::floor(times * (n * n * n + 240 * n) / 240);
+}  // namespace
+
+BudgetOf::BudgetOf(std::initializer_list<const Json*> values) : before_(now_) {
+  now_ = {};
+  for (const Json* value : values) now_.length += LengthOf(*value);
 }
 
-Cost::Cost(double operations)
-    : most_(static_cast<std::int64_t>(std::sqrt(std::floor(kMostWork / std::max(operations, 1.0))))) {
-  if (operations <= static_cast<double>(kMostOperations)) return;
-  throw TooDear{{"certificate", fmt::format("a claim that takes {:.0f} operations", operations),
-                 fmt::format("at most {}", kMostOperations)}};
+void RefuseCost(const std::string& found, const std::string& most) {
+  throw TooDear{{"certificate", found, "no more than the limit" + most}};
+}
+
+void RequireWork(double work) {
+  const double most = BudgetOf::Now().MostWork();
+  if (work <= most) return;
+  RefuseCost(fmt::format("a claim of work {:.0f}", work),
+             fmt::format(" of {:.0f}, by its length of {}", most, BudgetOf::Now().length));
+}
+
+double ProductOperations(double n, double times) { return std::floor(times * (n * n + 64 * n + 320) / 16); }
+
+double EliminationOperations(double n, double times) {
+  return std::floor(times * (n * n * n + 60 * n * n) / 24);
+}
+
+double WordOperations(double n, double times) {
+  return std::floor(times * (n * n * n + 40 * n * n + 500 * n + 1000) / 300);
+}
+
+double StepOperations(double n, double policies) {
+  return std::floor(n * n * n / 4) + 3 * n * n + 100 * n + (5 * n + 40) * policies;
+}
+
+double StepInSpaceOperations(double n, double coordinates, double times) {
+  return std::floor(times * (1 + coordinates) * (n * n * n + 20 * n * n + 300 * n) / 4);
+}
+
+namespace {
+
+// The largest integer whose square is not larger.
+std::int64_t Root(double square) {
+  auto root = static_cast<std::int64_t>(std::sqrt(std::max(square, 0.0)));
+  while (static_cast<double>(root) * static_cast<double>(root) > square) --root;
+  while (static_cast<double>(root + 1) * static_cast<double>(root + 1) <= square) ++root;
+  return root;
+}
+
+}  // namespace
+
+Cost::Cost(double operations) {
+  RequireWork(operations * Budget::kShort);
+  most_ = Root(std::floor(BudgetOf::Now().MostWork() / std::max(operations, 1.0)) - Budget::kShort);
 }
 
 void Cost::Add(std::int64_t bits) {
   bits_ += bits;
   if (bits_ <= most_) return;
-  throw TooDear{{"certificate", fmt::format("numbers that grow beyond {} bits", most_),
-                 "fewer, for as many operations as the claim takes"}};
+  RefuseCost(fmt::format("numbers that grow beyond {} bits", most_),
+             ": fewer bits, for as many operations as the claim takes");
 }
 
 // Of the common denominator and of the largest numerator; it need not be known exactly beyond the limit.
@@ -227,11 +277,9 @@ class ProductCost {
     }
     cost.AddBits(longest).Numbers(part, times);
     const double bits = static_cast<double>(cost.bits());
-    work_ += static_cast<double>(group.size()) * bits * bits +
+    work_ += static_cast<double>(group.size()) * (Budget::kShort + bits * bits) +
              std::floor(static_cast<double>(entries) * static_cast<double>(longest) * bits / 8);
-    if (work_ <= kMostWork) return;
-    throw TooDear{{"certificate", fmt::format("a product of work {:.0f}", work_),
-                   fmt::format("at most {:.0f}", kMostWork)}};
+    RequireWork(work_);
   }
 
  private:
@@ -266,6 +314,8 @@ void RequireCheapSquare(const ExactProblem& problem, const ExactVector& x) {
 }
 
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {
+  const Json described = ProblemToJson(problem);
+  const BudgetOf budget({&described, &witness});
   try {
     check(problem, witness);
     return std::nullopt;

@@ -8,6 +8,7 @@
 #define STICTION_CERTIFY_CLAIMS_WITNESS_H_
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <span>
@@ -34,21 +35,55 @@ struct TooDear : Rejected {};
 
 // ---- Cost --------------------------------------------------------------------------------------
 //
-// What a check will cost is bounded before it begins, in every checker by the same rule. `operations` counts
-// those of the check on numbers as long as they get; these are bounded by the bits of rows and vectors over
-// their common denominators, which add up: a determinant of A has no more bits than the rows of A together.
+// What a check will cost is bounded before it begins, in every checker by the same rule (certificates.md, What
+// a check may cost): so much that is free, and so much for every character of what was read. `operations`
+// counts those of the check on short numbers; they take longer by the square of the bits of numbers, which are
+// bounded by those of rows and vectors over their common denominators, which add up: a determinant of A has no
+// more bits than the rows of A together.
 
-inline constexpr std::int64_t kMostOperations = 2'000'000;
-inline constexpr double kMostWork = 1e13;  // operations, times the square of the bits
+struct Budget {
+  static constexpr double kFreeWork = 6e12, kWorkPerCharacter = 250'000;
+  static constexpr std::int64_t kFreeDigits = 1'000'000, kDigitsPerCharacter = 2;
+  static constexpr std::int64_t kFreeCells = 2'000'000, kCellsPerCharacter = 5;
+  static constexpr double kShort = 1e6;  // the square of the bits with which an operation takes twice as long
 
-// Each with numbers of `problem`, n rows of them; `times`: how often.
-double ProductOperations(const ExactProblem& problem, double times);      // A x
-double EliminationOperations(const ExactProblem& problem, double times);  // of A
-double ReducedOperations(const ExactProblem& problem, double times);      // of a reduced matrix: half as large
+  std::int64_t length = 0;  // characters of texts and keys, and two for every value
+
+  double MostWork() const { return kFreeWork + kWorkPerCharacter * static_cast<double>(length); }
+  std::int64_t MostDigits() const { return kFreeDigits + kDigitsPerCharacter * length; }
+  std::int64_t MostCells() const { return kFreeCells + kCellsPerCharacter * length; }
+};
+
+// That of the certificate which this thread reads, as long as this lives.
+class BudgetOf {
+ public:
+  // Of values of a certificate.
+  explicit BudgetOf(std::initializer_list<const Json*> values);
+  ~BudgetOf() { now_ = before_; }
+  BudgetOf(const BudgetOf&) = delete;
+  BudgetOf& operator=(const BudgetOf&) = delete;
+
+  static const Budget& Now() { return now_; }
+
+ private:
+  inline static thread_local Budget now_;
+  Budget before_;
+};
+
+// TooDear: what was found, and the limit that it exceeds.
+[[noreturn]] void RefuseCost(const std::string& found, const std::string& most);
+void RequireWork(double work);  // TooDear beyond that of the budget
+
+// Each with numbers of n rows; `times`: how often.
+double ProductOperations(double n, double times);      // A x
+double EliminationOperations(double n, double times);  // of A
+double WordOperations(double n, double times);     // of a reduced determinant: of half of the rows, on average
+double StepOperations(double n, double policies);  // of a step in the plane
+double StepInSpaceOperations(double n, double coordinates, double times);
 
 class Cost {
  public:
-  // TooDear beyond kMostOperations.
+  // TooDear beyond the work of the budget.
   explicit Cost(double operations);
 
   // Each adds bits, and throws TooDear where there are too many.

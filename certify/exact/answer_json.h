@@ -25,7 +25,7 @@ inline constexpr const char* kSolutionShape = R"({
   word?: text,  // the cells of the contacts at the end
   why?: text,  // why `auto` chose this method
   rung?: rung,
-  unique_accelerations?: false  // another solution with other accelerations is known; this is the one at rest
+  unique_accelerations?: false  // another solution with other accelerations is known; this one moves less
 })";
 
 Json SolutionToJson(const Solution& solution, int dimension);

@@ -136,11 +136,16 @@ class Walk {
   StateInSpace state() const { return run_.standing(); }
   std::int64_t drives() const { return run_.verdict().statistics.drives; }
   const Steps& word() const { return word_; }
+  // Of every step, which of the changes, forces and recorded directions are known to be zero.
+  const std::vector<std::vector<bool>>& zeros() const { return zeros_; }
 
   void TakeTurn() {
     trace_.clear();
     const bool goes_on = run_.TakeTurn();
-    for (const Pivot<FineInterval>& step : trace_) word_.push_back(memory_.StepText(step));
+    for (const Pivot<FineInterval>& step : trace_) {
+      word_.push_back(memory_.StepText(step));
+      zeros_.push_back(ZerosOf(step));
+    }
     if (run_.verdict().statistics.singular_directions > 0) Unsure<FineInterval>::Refuse();
     if (!goes_on) throw RunEnded{std::string(Name(run_.verdict().outcome))};
   }
@@ -150,10 +155,20 @@ class Walk {
   }
 
  private:
+  static std::vector<bool> ZerosOf(const Pivot<FineInterval>& step) {
+    std::vector<bool> zeros;
+    for (const auto* numbers : {&step.df, &step.da, &step.f})
+      for (const FineInterval& x : *numbers) zeros.push_back(IsSurelyZero(x));
+    for (const auto& d : step.recorded)
+      for (const FineInterval& x : d) zeros.push_back(IsSurelyZero(x));
+    return zeros;
+  }
+
   const Memory& memory_;
   SpaceTrace<FineInterval> trace_;
   FineRun run_;
   Steps word_;
+  std::vector<std::vector<bool>> zeros_;
 };
 
 // What the period makes of coordinates.
@@ -198,11 +213,13 @@ class FineProblem {
   }
 
   // Of the contacts that turn away in a period: whether aF is zero there if all periods are alike. The third
-  // period is the first of which all is named in the one before.
-  std::vector<bool> TurningsThatEnd(const StateInSpace& state, const Coordinates& x,
+  // period is the first of which all is named in the one before. `box`: all points at once, so that what is the
+  // same there is so by the steps that the run takes, not by the numbers of one point; and every period finds
+  // the same to be zero, so that names are given at the same places.
+  std::vector<bool> TurningsThatEnd(const StateInSpace& state, const Coordinates& box,
                                     const std::vector<int>& charts, std::int64_t period,
                                     std::size_t steps) const {
-    Walk walk = BeginPeriod(state, x, charts);
+    Walk walk = BeginPeriod(state, box, charts);
     std::size_t before = 0;
     for (int k = 1; k <= 3; ++k) {
       before = walk.turnings().size();
@@ -210,6 +227,9 @@ class FineProblem {
       walk.GoTo(k * period, k * steps);
       if (walk.word().size() != k * steps) throw RunEnded{"another period"};
     }
+    const auto second = walk.zeros().begin() + static_cast<std::ptrdiff_t>(steps);
+    const auto third = second + static_cast<std::ptrdiff_t>(steps);
+    if (!std::equal(second, third, third, walk.zeros().end())) Unsure<FineInterval>::Refuse();
     std::vector<bool> ends;
     for (std::size_t k = before; k < walk.turnings().size(); ++k) ends.push_back(walk.turnings()[k].ends);
     return ends;
@@ -345,8 +365,8 @@ std::optional<LoopFault> FaultOfTurnings(const FineProblem& problem, const State
   const std::vector<int> moving = Moving(image);
   if (moving.size() != 1)
     return LoopFault{"radii", fmt::format("{} coordinates that move", moving.size()), "1 in a punctured box"};
-  const std::vector<bool> ends =
-      problem.TurningsThatEnd(state, Points(loop.centre), loop.charts, loop.period, image.word.size());
+  const std::vector<bool> ends = problem.TurningsThatEnd(state, BoxAround(loop.centre, loop.radii), loop.charts,
+                                                         loop.period, image.word.size());
   if (ends.size() != image.asides.size()) Unsure<FineInterval>::Refuse();
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const FineInterval& aside = image.asides[k];
@@ -654,11 +674,23 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
   return loop.endless ? FaultOfRecurrence(problem, state, loop, image) : std::nullopt;
 }
 
+// Fixed places take a number that is large beside 2^bits for one that is hardly known.
+std::optional<LoopFault> FaultOfNumbers(const ExactProblem& problem, int bits) {
+  const Rational most(mpz_class(mpz_class(1) << bits / 4));
+  const auto is_large = [&most](const Rational& x) { return abs(x) >= most; };
+  bool large = std::any_of(problem.A.data(), problem.A.data() + problem.A.size(), is_large) ||
+               std::any_of(problem.b.data(), problem.b.data() + problem.b.size(), is_large);
+  for (const Contact<Rational>& contact : problem.contacts) large |= is_large(contact.mu);
+  if (!large) return std::nullopt;
+  return LoopFault{"bits", std::to_string(bits), "more: numbers of A, b and mu are below 2^(bits / 4)"};
+}
+
 }  // namespace
 
 std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
                                        const LoopInSpace& loop) {
   if (loop.endless && !loop.IsBox()) return LoopFault{"kind", "states", "box"};
+  if (auto fault = FaultOfNumbers(problem, loop.bits)) return fault;
   const FineBits bits(loop.bits);
   const FineProblem fine(problem, policy, {});
   Walk walk = fine.Begin();
@@ -706,6 +738,7 @@ std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, cons
 
 std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy,
                                       const RayInSpace& ray) {
+  if (auto fault = FaultOfNumbers(problem, ray.bits)) return fault;
   const FineBits bits(ray.bits);
   const FineProblem fine(problem, policy, {});
   Walk walk = fine.Begin();

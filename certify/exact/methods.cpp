@@ -163,7 +163,9 @@ Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTr
 
 Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const SolveOptions&, Trace<double>*) {
   IpoptProposer proposer;
-  return SolveQpByIpopt(Unrounded(problem), proposer);
+  ExactProblem normals = Unrounded(problem);
+  normals.dimension = 2;  // without friction space is the plane
+  return SolveQpByIpopt(normals, proposer);
 }
 
 // ---- The table ---------------------------------------------------------------------------------

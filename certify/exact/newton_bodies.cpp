@@ -27,9 +27,11 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const SolveOption
   Answer<double> answer;
   if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, options);
   answer.law = FrictionLaw::kCoulomb;
-  answer.f = Eigen::VectorXd::Zero(problem.rows());
-  answer.reason = "A is not symmetric and positive semidefinite, or too large for a dense J";
-  if (problem.rows() == 0) answer.outcome = Outcome::kSolved;
+  if (problem.rows() == 0) {
+    answer.outcome = Outcome::kSolved;
+  } else {  // no forces, which the gate would refine
+    answer.reason = "A is not symmetric and positive semidefinite, or too large for a dense J";
+  }
   return answer;
 }
 

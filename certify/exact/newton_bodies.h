@@ -31,7 +31,9 @@ Method<double> NewtonBodiesRow();
 template <class Problem>
 void JudgeExactly(const Problem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
                   double bound, InexactAnswer& answer) {
-  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a);
+  ErrorMeter<Rational> meter;
+  const Rational theta(GateOf<double>(bound).theta());
+  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, meter, theta);
   Errors<double> errors;
   errors.acceleration = ToDouble(exact.acceleration);
   errors.force = ToDouble(exact.force);

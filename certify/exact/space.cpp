@@ -6,6 +6,7 @@
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/numeric/coulomb.h"
+#include "solver/numeric/refine.h"
 
 namespace stiction {
 namespace {
@@ -46,9 +47,30 @@ std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const Con
   const ContactProblem<double>::Vector start = f.unaryExpr([](const Rational& x) { return ToDouble(x); });
   if (!start.allFinite() || !rounded.A.allFinite() || !rounded.b.allFinite()) return std::nullopt;
   if (solver.Run(rounded, &start).outcome != Outcome::kSolved) return std::nullopt;
-  const auto exact = [](double x) { return Rational(x); };
-  const ExactVector near = solver.f().unaryExpr(exact);
-  return SolveModes(problem, ModesNear(problem, near, solver.a().unaryExpr(exact)), near);
+  const Refined refined = Refine(rounded, FrictionLaw::kCoulomb, GateOf<double>(), solver.f());
+  const ExactVector near = refined.f.unaryExpr([](double x) { return Rational(x); });
+  return SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+}
+
+// The cosine from which on an angle is at most that up to which forces are called solved.
+const Rational& EnoughBound() {
+  static const Rational enough = 1 - Rational(kSolvedResidual<double> * kSolvedResidual<double> / 4);
+  return enough;
+}
+
+// Friction turned against the slip that it leaves, again and again, until the bound is enough or falls no more.
+std::optional<ExactVector> Turned(const ExactProblem& problem, ExactVector f) {
+  constexpr int kTurns = 8;
+  std::optional<ExactVector> best;
+  std::optional<Rational> least = CoulombBound(problem, f);
+  for (int turn = 0; turn < kTurns && least && *least < EnoughBound(); ++turn) {
+    const auto next = SolveModes(problem, ModesNear(problem, f, Accelerations(problem, f)), f);
+    const auto bound = next ? CoulombBound(problem, *next) : std::nullopt;
+    if (!bound || *bound <= *least) break;
+    best = f = *next;
+    least = bound;
+  }
+  return best;
 }
 
 // Corners opposite to the accelerations of slipping contacts, with `bits` binary places.
@@ -69,7 +91,6 @@ bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
 // The same toward Coulomb's law.
 bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, OnPolygons& run,
                 Answer<Rational>& answer) {
-  static const Rational kEnough = 1 - Rational(1, 1 << 20);
   const auto consider = [&](const ExactVector& f) {
     const auto bound = CoulombBound(problem, f);
     if (!bound || (answer.Solved() && *bound <= *answer.bound)) return;
@@ -78,7 +99,17 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
   };
   consider(run.answer.f);
   if (const auto f = NewtonSolution(problem, rounded, run.answer.f)) consider(*f);
-  return answer.bound >= kEnough || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
+  if (answer.Solved() && *answer.bound < EnoughBound())
+    if (const auto f = Turned(problem, answer.f)) consider(*f);
+  return answer.bound >= EnoughBound() || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
+}
+
+// Forces whose friction is further from the slip than a solution's may be are no solution: they are told, with
+// their bound.
+void CallBounded(Answer<Rational>& answer) {
+  if (!answer.Solved() || !answer.bound || *answer.bound >= EnoughBound()) return;
+  answer.outcome = Outcome::kUndecided;
+  answer.reason = "the angle between friction and slip is bounded, and not small enough to be called solved";
 }
 
 }  // namespace
@@ -90,32 +121,42 @@ Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& o
   const auto toward = [&](OnPolygons& run, Answer<Rational>& answer) {
     return TryCoulomb(problem, rounded, run, answer);
   };
-  return SolveOnPolygons(problem, options, toward, trace);
+  Answer<Rational> answer = SolveOnPolygons(problem, options, toward, trace);
+  CallBounded(answer);
+  return answer;
 }
 
-Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+Answer<Rational> SolveNear(const ExactProblem& problem, const SpaceOptions& options, const Eigen::VectorXd& f) {
   Answer<Rational> answer;
   answer.law = options.law;
   answer.counters = CountersOf(CompleteStatistics());
   answer.counters.push_back({"refinements", 0});
-  answer.reason = "the modes of the fast method's point are no solution";
-  ContactProblem<double> rounded;
-  try {
-    rounded = Rounded<double>(problem);
-  } catch (const InputError&) {
+  answer.reason = "the modes near these forces are no solution";
+  if (f.size() != problem.rows() || !f.allFinite()) return answer;
+  const ExactVector near = f.unaryExpr([](double x) { return Rational(x); });
+  const auto exact = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+  if (!exact) return answer;
+  const auto bound = CoulombBound(problem, *exact);
+  if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *exact).has_value()
+                                          : !bound || *bound <= 0)
     return answer;
-  }
-  const Answer<double> fast =
-      Solve(rounded, "fast", {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides});
-  if (fast.f.size() != problem.rows() || !fast.f.allFinite()) return answer;
-  const ExactVector near = fast.f.unaryExpr([](double x) { return Rational(x); });
-  const auto f = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
-  if (!f) return answer;
-  const auto bound = CoulombBound(problem, *f);
-  if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *f).has_value() : !bound || *bound <= 0)
-    return answer;
-  Accept(problem, *f, answer);
+  Accept(problem, *exact, answer);
   if (options.law == FrictionLaw::kCoulomb) answer.bound = *bound;
+  CallBounded(answer);
+  return answer;
+}
+
+Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+  Eigen::VectorXd f;
+  try {
+    f = Solve(Rounded<double>(problem), "fast",
+              {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides})
+            .f;
+  } catch (const InputError&) {  // doubles do not hold the problem
+  }
+  Answer<Rational> answer = SolveNear(problem, options, f);
+  if (answer.outcome == Outcome::kUndecided && !answer.bound)
+    answer.reason = "the modes of the fast method's point are no solution";
   return answer;
 }
 

@@ -37,6 +37,9 @@ Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& o
 // whether or not b is in range(A). undecided where they are no solution, or doubles do not hold the problem.
 Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
 
+// The modes near forces over doubles, f rows x 1, solved exactly; undecided where they are no solution.
+Answer<Rational> SolveNear(const ExactProblem& problem, const SpaceOptions& options, const Eigen::VectorXd& f);
+
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);

@@ -67,6 +67,10 @@ Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptio
   SolveOptions quick = options;
   if (in_space) quick.sides = 0;
   Answer<double> best = in_space ? Solve(problem, "fast", quick) : Solve(problem, kAutomatic, quick);
+  if (!in_space && best.outcome == Outcome::kSingular) {
+    Answer<double> proximal = Solve(problem, "proximal", options);
+    if (proximal.Solved()) return {.answer = std::move(proximal)};
+  }
   const bool is_open = !best.Solved() && best.outcome != Outcome::kNoSolution;
   if (!is_open || options.limits.Stopped() || best.f.size() != problem.rows() || !best.f.allFinite())
     return {.answer = std::move(best)};

@@ -2,7 +2,8 @@
 // Escalation: what doubles leave undecided, over quad, within a counted budget and before slower methods.
 //
 //   space   fast without polygons; Newton's method over quad from where it ended; all methods over doubles
-//   plane   all methods over doubles; the fast method over quad
+//   plane   all methods over doubles; proximal points where rows of bilateral contacts are singular; the fast
+//           method over quad
 //
 // A step over quad costs about rows^3 / 3 operations, and kQuadOperations are spent at most. Where nothing
 // solves, the forces of the smallest errors are told, undecided.

@@ -74,6 +74,16 @@ SolveRequest NamedRequest(const Wanted& wanted, const ExactProblem& problem, con
   return request;
 }
 
+// Over floating-point numbers the methods of space solve Coulomb's law, which is more than (21), (22) ask.
+void RequireLaw(const Wanted& wanted, const SolveRequest& request) {
+  if (wanted.law != "baraff" || request.method == "baraff" || request.arithmetic == Arithmetic::kExact) return;
+  throw InputError(
+      fmt::format("{0}law baraff: found {0}method {1} over {2}, expected {0}arithmetic exact, or {0}method "
+                  "baraff; over {2} {1} "
+                  "solves Coulomb's law, of which every solution is one of {0}law baraff",
+                  wanted.dashes, request.method, Name(request.arithmetic)));
+}
+
 void RequireBuilt(const SolveRequest& request, const ExactProblem& problem, const std::string& source) {
   const std::string refusal = Refusal(request.method, problem.dimension, request.arithmetic);
   if (!refusal.empty()) throw InputError(source + ": " + refusal);
@@ -89,6 +99,7 @@ SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const 
   request.arithmetic =
       wanted.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic : ArithmeticNamed(wanted);
   RequireBuilt(request, problem, source);
+  RequireLaw(wanted, request);
   return request;
 }
 

@@ -61,7 +61,7 @@ struct WantedClaim {
   std::string_view dashes = "--";
 };
 
-// CertifyClaim of what is asked for.
+// What became of the claim that is asked for (certify/claims/claim_answer.h).
 Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
                    const EnumerationOptions& enumeration);
 

@@ -15,6 +15,7 @@
 #include "certify/request/escalate.h"
 #include "certify/request/quad.h"
 #include "certify/request/rest.h"
+#include "certify/request/rounded_problem.h"
 #include "corpus/record/sparse_problem.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -39,10 +40,42 @@ bool MayPreferRest(const Answer<Scalar>& answer, const SolveRequest& request) {
          !request.options.limits.Stopped();
 }
 
+// Squares of accelerations, of contacts as if A_ii were 1: no units of theirs change it.
+Rational Motion(const ExactProblem& problem, const ExactVector& a) {
+  Rational sum = 0;
+  for (int i = 0; i < a.size(); ++i)
+    if (problem.A(i, i) > 0) sum += a[i] * a[i] / problem.A(i, i);
+  return sum;
+}
+
+// In space, of solutions whose contacts slip, the one of Newton's method in the space of bodies if it moves
+// less: its steps are those of the least change.
+void PreferLessMotion(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
+  if (problem.dimension != 3 || answer.law != FrictionLaw::kCoulomb || answer.a.isZero(0)) return;
+  Eigen::VectorXd f;
+  try {
+    f = request.factors != nullptr ? SolveByBodies(*request.factors, request.options).f
+                                   : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request.options).f;
+  } catch (const InputError&) {  // doubles do not hold the problem
+    return;
+  }
+  ExactAnswer other = SolveNear(problem, SpaceOptionsOf(request.options, SpaceEngine::kComplete), f);
+  if (!other.Solved()) return;
+  const Rational mine = Motion(problem, answer.a), least = Motion(problem, other.a);
+  constexpr double kAlike = 1e-6;  // what bounded directions of slip leave
+  if (abs(least - mine) <= Rational(kAlike) * mine) return;
+  answer.moves_elsewhere = true;
+  if (least > mine) return;
+  answer.f = std::move(other.f);
+  answer.a = std::move(other.a);
+  answer.bound = other.bound;
+  answer.word.clear();
+}
+
 void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
-  if (!rest) return;
+  if (!rest) return PreferLessMotion(problem, request, answer);
   answer.f = std::move(rest->f);
   answer.a = Accelerations(problem, answer.f);
   answer.word.clear();
@@ -61,8 +94,8 @@ ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest&
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
 ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
-  Units<double> units;
-  units.Take(problem, answer.f, answer.a);
+  LenientUnits<double> units;
+  units.Take(problem, answer.f);
   ExactVector moving = ExactVector::Zero(answer.a.size());
   for (int i = 0; i < moving.size(); ++i) {
     const bool moves = answer.a_enclosed.empty()
@@ -73,13 +106,14 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
   return moving;
 }
 
-// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; `exact`: that of
-// which it is a rounding, or null where it is the same.
-void PreferRest(const ContactProblem<double>& rounded, const ExactProblem* exact, const SolveRequest& request,
-                InexactAnswer& answer) {
+// Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; file(): that of
+// which it is a rounding.
+template <class File>
+void PreferRestRounded(const ContactProblem<double>& rounded, File file, const SolveRequest& request,
+                       InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const auto rest = ForcesAtRest(exact != nullptr ? *exact : Unrounded(rounded), f, Moving(rounded, answer));
+  const auto rest = ForcesAtRest(file(), f, Moving(rounded, answer));
   if (!rest) return;
   InexactAnswer resting = answer;
   resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
@@ -114,36 +148,41 @@ InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest requ
 void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
   InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
   InexactAnswer again = RunFinely(ran, request);
+  again.arithmetic = first.arithmetic;
   again.pivots = std::move(first.pivots);
   solution.suspected = std::exchange(first, std::move(again));
 }
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
-void Confirm(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
-  const InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
+template <class Scalar>
+void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request, Solution& solution) {
+  const InexactAnswer first = std::get<InexactAnswer>(solution.answer);
   const MethodFacts* facts = FindMethodFacts(request.method);
   const bool is_path = facts != nullptr && facts->HasPath();
   if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
-  if (ran.dimension == 3 && request.method == "baraff") return RunAgainInSpace(ran, request, solution);
-  if (ran.dimension != 2 || !facts->IsBuilt(ran.dimension, Arithmetic::kExact)) return;
+  const int dimension = problem.numbers().dimension;
+  if (dimension == 3 && request.method == "baraff") {
+    RunAgainInSpace(
+        Converted<double>(problem.numbers(), [](const Scalar& x) { return static_cast<double>(x); }), request,
+        solution);
+    return;
+  }
+  if (dimension != 2 || !facts->IsBuilt(dimension, Arithmetic::kExact)) return;
   solution.suspected = first;
-  solution.answer = SolveExactly(Unrounded(ran), request);
+  if (problem.IsFile()) {
+    solution.answer = SolveExactly(problem.File(), request);
+  } else {
+    solution.answer = problem.RunExactly(request, BoundOf<Scalar>(request.options));
+  }
 }
 
-// What decides exactly, asked for rounded numbers: its forces are rounded, and then judged.
+// What decides exactly decides the problem of the file, in whatever numbers its forces are asked for: these are
+// rounded, and judged on the problem that is rounded as they are.
 template <class Scalar>
-Answer<Scalar> SolveAndRound(const ContactProblem<Scalar>& problem, const SolveRequest& request, double bound) {
-  const ExactAnswer exact = SolveExactly(Unrounded(problem), request);
-  Answer<Scalar> answer;
-  answer.outcome = exact.outcome;
-  answer.reason = exact.reason;
-  answer.method = exact.method;
-  answer.counters = exact.counters;
-  answer.f = exact.f.unaryExpr([](const Rational& x) { return static_cast<Scalar>(ToDouble(x)); });
-  answer.first_f = answer.f;
-  answer.first_f.setZero();
-  JudgeAnswer(problem, bound, answer);
-  return answer;
+Solution SolveAndRound(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
+  ExactAnswer exact = SolveExactly(problem.File(), request);
+  if (exact.outcome == Outcome::kNoSolution) return {.answer = std::move(exact)};
+  return {.answer = problem.Told(exact, request.arithmetic, BoundOf<Scalar>(request.options))};
 }
 
 // The row that is built over doubles alone; null if there is none.
@@ -157,13 +196,17 @@ const Method<Scalar>* FindOverDoubles(std::string_view name) {
   return nullptr;
 }
 
+// Whether a row of the tables over the scalar has the method, or `auto` chooses from them.
+template <class Scalar>
+bool IsFloatingMethod(std::string_view name) {
+  return name == kAutomatic || FindMethod<Scalar>(name) != nullptr || FindOverDoubles<Scalar>(name) != nullptr;
+}
+
 template <class Scalar>
 Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
-  if (request.method == kAutomatic || FindMethod<Scalar>(request.method) != nullptr)
-    return SolveWithPath(problem, request);
   if (const Method<Scalar>* row = FindOverDoubles<Scalar>(request.method))
     return SolveBy(*row, problem, request.options);
-  return SolveAndRound(problem, request, BoundOf<Scalar>(request.options));
+  return SolveWithPath(problem, request);
 }
 
 // By the factors that the problem came in, where they are asked for by name or `auto` may take them; empty
@@ -176,32 +219,34 @@ std::optional<InexactAnswer> SolveByFactors(const SolveRequest& request) {
   return answer;
 }
 
-// `exact`: as of PreferRest.
 template <class Scalar>
-Solution SolveRounded(const ContactProblem<Scalar>& rounded, const ExactProblem* exact,
-                      const SolveRequest& request) {
+Solution SolveRounded(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
+  const ContactProblem<Scalar>& rounded = problem.numbers();
+  const auto file = [&problem] { return problem.File(); };
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
     if (auto answer = SolveByFactors(request)) {
-      PreferRest(rounded, exact, request, *answer);
+      PreferRestRounded(rounded, file, request, *answer);
       return {.answer = *std::move(answer)};
     }
     if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
       solution = SolveEscalating(rounded, request.options);
-      PreferRest(rounded, exact, request, std::get<InexactAnswer>(solution.answer));
+      PreferRestRounded(rounded, file, request, std::get<InexactAnswer>(solution.answer));
       return solution;
     }
   }
+  if (!IsFloatingMethod<Scalar>(request.method)) return SolveAndRound(problem, request);
   solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
-  const auto ran = Converted<double>(rounded, [](Scalar x) { return static_cast<double>(x); });
-  Confirm(ran, request, solution);
-  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer)) PreferRest(ran, exact, request, *answer);
+  Confirm(problem, request, solution);
+  const auto ran = Converted<double>(rounded, [](const Scalar& x) { return static_cast<double>(x); });
+  if (auto* answer = std::get_if<InexactAnswer>(&solution.answer))
+    PreferRestRounded(ran, file, request, *answer);
   return solution;
 }
 
 template <class Scalar>
 Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
-  return SolveRounded(Rounded<Scalar>(problem), &problem, request);
+  return SolveRounded(RoundedProblem<Scalar>(problem), request);
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -255,7 +300,9 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
       PreferRest(problem, request, *exact);
     } else {
-      PreferRest(Rounded<double>(problem), &problem, request, std::get<InexactAnswer>(solution.answer));
+      PreferRestRounded(
+          Rounded<double>(problem), [&problem] { return problem; }, request,
+          std::get<InexactAnswer>(solution.answer));
     }
     return solution;
   }
@@ -334,7 +381,7 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request) {
   RequireReading(ExactProblem{.dimension = problem.dimension, .contacts = {}, .A = {}, .b = {}}, request);
-  return SolveRounded(problem, nullptr, request);
+  return SolveRounded(RoundedProblem<double>(problem), request);
 }
 
 Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {

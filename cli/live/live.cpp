@@ -107,7 +107,7 @@ std::string AnswerLive(const std::string& request) {
   } catch (const std::bad_alloc&) {
     return R"({"error":"out of memory"})";
   } catch (const std::exception& error) {
-    return Json{{"error", error.what()}}.dump();
+    return JsonText(Json{{"error", error.what()}});
   }
 }
 

@@ -15,15 +15,21 @@
 #include "certify/claims/claims.h"
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
-#include "certify/claims/safety_threshold.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/over_intervals.h"
+#include "cli/narration/safety.h"
 #include "cli/narration/surveyed.h"
+#include "corpus/formats/read_problem.h"
+#include "corpus/grouped.h"
 #include "corpus/plain_text.h"
+#include "corpus/record/kinds.h"
+#include "corpus/record/loop_sentence.h"
+#include "corpus/store/finding_words.h"
 #include "solver/linear/elimination.ipp"
 
 namespace stiction {
@@ -84,23 +90,37 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
   found["loops"] = ends.at(looping[0]);
   found["loops"]["policy"] = wanted.policy = looping[0];
   const auto proved = OverIntervals(problem, PathRequestOf(wanted, problem, o.file), Outcome::kCycle);
-  found["loops"]["proved"] = problem.dimension == 2 || (proved && IsLoop(proved->outcome));
+  const bool by_intervals = proved && IsLoop(proved->outcome);
+  found["loops"]["proved"] = problem.dimension == 2 || by_intervals;
+  // Intervals tell where the loop begins, too; over doubles it begins where rounded states recur.
+  if (by_intervals) found["loops"].update(EndToJson(*proved));
+  found["loops"]["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
   return found;
 }
 
+// How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
+Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
+  Wanted wanted;
+  wanted.method = method;
+  wanted.options.limits = o.limits;
+  SolveRequest request = RequestOf(wanted, file.problem, o.file);
+  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  request.factors = factors ? &*factors : nullptr;
+  Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
+  const auto add = [&run](const auto& answer) {
+    run.update(EndToJson(answer));
+    if (answer.moves_elsewhere) run["unique_accelerations"] = false;
+  };
+  std::visit(add, SolveAsked(file.problem, request, o.file).answer);
+  return run;
+}
+
 // How every method ends that is built for such a problem, in its usual arithmetic.
-Json MethodsOn(const ExactProblem& problem, const ExplainOptions& o) {
+Json MethodsOn(const ProblemFile& file, const ExplainOptions& o) {
   Json runs = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
-    Wanted wanted;
-    wanted.method = facts.name;
-    wanted.options.limits = o.limits;
     try {
-      const SolveRequest request = RequestOf(wanted, problem, o.file);
-      const Solution solution = SolveAsked(problem, request, o.file);
-      Json run = {{"method", facts.name}, {"arithmetic", Name(request.arithmetic)}};
-      run.update(std::visit([](const auto& answer) { return EndToJson(answer); }, solution.answer));
-      runs.push_back(std::move(run));
+      runs.push_back(EndOf(facts.name, file, o));
     } catch (const InputError&) {  // not built for such problems, or a number is none of the arithmetic's
     }
   }
@@ -126,8 +146,9 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
   const bool handled =
       problem.dimension == 2 && !found["kinds"].contains("bilateral") && !found["kinds"].contains("sliding");
   if (handled && HasFewWords(problem, kFewWords)) {
-    const auto threshold = FindSafetyThreshold(problem);
-    found["safe_below"] = threshold ? Json(ToString(threshold->low)) : Json();
+    found["safety"] = SafetyOf(problem);
+    const Json& safety = found["safety"];
+    found["safe_below"] = safety.contains("threshold") ? safety["threshold"]["low"] : Json();
   }
   const Json& loop = found["policies"]["loops"];
   if (!handled || loop.is_null()) return;
@@ -136,23 +157,28 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
 }
 
 // Every claim that is made of such problems: the certificate that it gets, or null, and the command.
-Json ClaimsOf(const ExactProblem& problem, const ExplainOptions& o, const std::string& policy) {
+Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::string& policy) {
+  const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   ClaimOptions options;
   options.policies = ParsePolicies(policy);
   options.limits = o.limits;
   options.enumeration.programs = kPrograms;
+  options.factors = file.factors ? &*file.factors : nullptr;
   const std::string stem = std::filesystem::path(o.file).stem().string();
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;
     try {
       claim.require(problem, o.file);
-      const Json certificate = claim.certify(problem, options);
+      const Json answer = ToJson(claim.certify(problem, options), claim.name);
+      const Json& certificate = answer["certificate"];
       constexpr std::string_view kOfRuns[] = {"cycle", "ray", "endless", "counterexample"};
       const bool of_runs = std::ranges::find(kOfRuns, claim.name) != std::end(kOfRuns);
       claims.push_back(
           {{"claim", claim.name},
            {"meaning", claim.meaning},
+           {"state", answer["state"]},
+           {"says", ClaimSentence(answer)},
            {"certificate", certificate.is_object() ? certificate["claim"] : Json()},
            {"command", fmt::format("stiction certify {} --claim {}{} -o {}", ShellWord(o.file), claim.name,
                                    of_runs && policy != "paper" ? " --policy " + policy : "",
@@ -178,11 +204,16 @@ Json NextOf(const Json& found, const std::string& file) {
         {{"command", fmt::format("stiction {} {}{}", verb, ShellWord(file), options)}, {"shows", shows}});
   };
   add("solve", "", CertificateFor(found, "existence") == "no-solution" ? "why there are none" : "the forces");
+  // What fails over doubles does so there alone.
+  const auto named = FindNamed(file);
+  const bool of_doubles = named && IsOfDoubles(named->finding.kind);
+  if (of_doubles)
+    add("replay", ReplayOptionsOf(named->finding) + " --step", "the run that was found, over doubles");
   if (found.contains("policies")) {
     const Json& loop = found["policies"]["loops"];
     const bool other = !loop.is_null() && loop["policy"] != "paper";
     const std::string policy = other ? " --policy " + loop["policy"].get<std::string>() : "";
-    add("replay", policy + " --step", "the published algorithm, step by step");
+    add("replay", policy + " --step", "the published algorithm, step by step, exactly");
     add("replay", policy + " --html run.html", "the same as a page, beside complete driving");
     add("replay", " --all-policies", "which policies end how, and what they have in common");
     if (!loop.is_null() && loop["proved"] == true)
@@ -207,14 +238,15 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
     const ExactProblem& problem = file->problem;
     std::string policy = "paper";
     found["rank"] = RankOf(problem);
-    found["methods"] = MethodsOn(problem, o);
+    found["methods"] = MethodsOn(*file, o);
+    found["solve"] = EndOf(kAutomatic, *file, o);
     if (problem.contacts.size() <= kFewContacts) {
       found["policies"] = PoliciesOn(problem, o);
       if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
       AddMargins(problem, o, found);
       if (const Json& loop = found["policies"]["loops"]; !loop.is_null()) policy = loop["policy"];
     }
-    found["claims"] = ClaimsOf(problem, o, policy);
+    found["claims"] = ClaimsOf(*file, o, policy);
   }
   found["next"] = NextOf(found, o.file);
   return found;
@@ -223,10 +255,6 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
 namespace {
 
 // ---- In words --------------------------------------------------------------------------------------
-
-std::string NumberOf(std::int64_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 std::string BetweenText(const Json& ends) {
   const auto text = [](const Json& end) {
@@ -238,12 +266,12 @@ std::string BetweenText(const Json& ends) {
 std::string ProblemText(const Json& found) {
   const Json& facts = found["survey"];
   std::vector<std::string> kinds;
-  for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(count.dump() + " " + kind);
-  std::string text = fmt::format("{} {}: {}", NumberOf(facts["contacts"], "contact"),
+  for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(JsonText(count) + " " + kind);
+  std::string text = fmt::format("{} {}: {}", Counted(facts["contacts"], "contact"),
                                  facts["dimension"] == 3 ? "in space" : "in the plane", fmt::join(kinds, ", "));
   if (found.contains("mu")) text += ", mu " + BetweenText(found["mu"]);
-  text += fmt::format(". A has {}", NumberOf(facts["rows"], "row"));
-  if (found.contains("rank")) text += ", rank " + found["rank"].dump();
+  text += fmt::format(". A has {}", Counted(facts["rows"], "row"));
+  if (found.contains("rank")) text += ", rank " + JsonText(found["rank"]);
   if (found.contains("diagonal")) text += fmt::format(", A_ii {}", BetweenText(found["diagonal"]));
   return text + fmt::format(". The problem {}.", AssumptionsMetText(facts));
 }
@@ -271,17 +299,15 @@ std::string ExistenceText(const Json& found) {
 std::string PoliciesText(const Json& policies) {
   std::vector<std::string> parts;
   for (const auto& [outcome, count] : policies["outcomes"].items())
-    parts.push_back(fmt::format("{} {}", outcome, count.dump()));
+    parts.push_back(fmt::format("{} {}", outcome, Grouped(count.get<std::int64_t>())));
   const std::string text = fmt::format("The published algorithm under {}, readings of its text: {}.",
-                                       policies["all"] == 1 ? "1 policy" : policies["all"].dump() + " policies",
-                                       fmt::join(parts, ", "));
+                                       Counted(policies["all"], "policy"), fmt::join(parts, ", "));
   const Json& loop = policies["loops"];
   if (loop.is_null()) return text;
-  const char* unit = loop["outcome"] == "cycle" ? "drives" : "steps";
-  return text + fmt::format(" Under {} the state after {} {} recurs every {} {}, for ever{}.",
-                            loop["policy"].get<std::string>(), loop["start"].dump(), unit,
-                            loop["period"].dump(), unit,
-                            loop["proved"] == true ? "" : " as far as rounded numbers tell");
+  const ProvedRun run{loop["kind"] == "box" ? ProofKind::kBox : ProofKind::kStates, loop["start"],
+                      loop["period"]};
+  return text + fmt::format(" Under {} {}{}.", loop["policy"].get<std::string>(), LoopSentence(run),
+                            loop["proved"] == true ? "" : ", as far as rounded numbers tell");
 }
 
 std::string SurenessText(const Json& found) {
@@ -302,13 +328,7 @@ std::string SurenessText(const Json& found) {
       text += solutions["unique"] == true ? "Its forces are the only ones. "
                                           : "There are other forces that meet all conditions. ";
   }
-  const std::string safe = CertificateFor(found, "safe");
-  if (safe == "safe")
-    text +=
-        "A is safe: complete driving never turns back, and, ties apart, the published algorithm under "
-        "apex=suspended ends. ";
-  if (safe == "unsafe")
-    text += "A is not safe: complete driving may turn back, where the published algorithm gives up. ";
+  if (found.contains("safety")) text += fmt::format("A is {}. ", SafetySentence(found["safety"]));
   if (found.contains("safe_below"))
     text += found["safe_below"].is_null() ? "With one mu for all contacts it is safe, whatever mu is. "
             : found["safe_below"] == "0"  ? "With one mu for all contacts it is safe for no mu. "
@@ -319,7 +339,13 @@ std::string SurenessText(const Json& found) {
                 ? "No distance is proved within which the loop stays one. "
                 : fmt::format("The loop stays one while A, b and mu move by up to {} of their size, proved. ",
                               found["radius"].get<std::string>());
-  return text.empty() ? "Not looked at: in space, or with so many contacts." : text;
+  if (found.contains("solve") && found["solve"].contains("unique_accelerations"))
+    text +=
+        "They are not unique: others with other accelerations are known, and `solve` gives those that move "
+        "less. ";
+  if (!found.contains("solutions"))
+    text += "Whether other forces obey the law, too, is not looked for in space, or with so many contacts. ";
+  return text;
 }
 
 std::string MethodsText(const Json& found) {
@@ -333,7 +359,7 @@ std::string MethodsText(const Json& found) {
   for (const Json& run : found.value("methods", Json::array())) {
     std::string end = run["outcome"];
     if (run.contains("period"))
-      end += fmt::format(": from {} on, every {}", run["start"].dump(), run["period"].dump());
+      end += fmt::format(": from {} on, every {}", JsonText(run["start"]), JsonText(run["period"]));
     if (run.contains("reason")) end += ": " + run["reason"].get<std::string>();
     table.AddRow(
         {fmt::format("  {}, {}", run["method"].get<std::string>(), run["arithmetic"].get<std::string>()), end});
@@ -347,14 +373,13 @@ std::string LineOfCommand(const Json& command) { return "    " + command.get<std
 std::string CommandsText(const Json& found) {
   std::string text = found.contains("claims") ? "\nWhat can be certified\n" : "";
   for (const Json& claim : found.value("claims", Json::array())) {
-    if (claim["certificate"].is_null()) continue;
-    const std::string name = claim["certificate"], meaning = claim["meaning"];
-    const bool any = claim["claim"] == "existence";  // whichever certificate of solutions there is
-    if (!any && name == CertificateFor(found, "existence")) continue;
-    text += Paragraph(any                      ? name + ": whether there is a solution"
-                      : name == claim["claim"] ? fmt::format("{}: {}", name, meaning)
-                                               : fmt::format("{}: it is false that {}", name, meaning)) +
-            LineOfCommand(claim["command"]);
+    const bool certified = claim["certificate"].is_string();
+    const bool told = claim["claim"] != "existence" && certified &&
+                      claim["certificate"] == CertificateFor(found, "existence");
+    if (told) continue;
+    text +=
+        Paragraph(fmt::format("{}: {}", claim["claim"].get<std::string>(), claim["says"].get<std::string>()));
+    if (certified) text += LineOfCommand(claim["command"]);
   }
   text += "\nWhat to type next\n";
   for (const Json& each : found["next"])

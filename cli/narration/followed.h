@@ -12,6 +12,7 @@
 #include "certify/exact/solve.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/replay_page.h"
+#include "corpus/record/loop_sentence.h"
 
 namespace stiction {
 
@@ -29,8 +30,7 @@ Narration Narrate(const std::string& method, const ProblemFile& file, const Solu
 template <class End>
 std::string EndText(const End& end, bool proved) {
   if (proved || end.outcome != Outcome::kCycle) return Describe(end);
-  return fmt::format("cycle: after rounding, the state after {} drives recurs {} drives later", end.start,
-                     end.period);
+  return "cycle: after rounding, " + LoopClause({ProofKind::kStates, end.start, end.period});
 }
 
 // What `replay --json` prints; `initial`: with --step, which tells forces and accelerations before the first

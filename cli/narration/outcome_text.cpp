@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "corpus/record/loop_sentence.h"
+
 namespace stiction {
 
 std::string Text(const Rational& x, FractionText fractions) {
@@ -19,14 +21,10 @@ std::string Text(const Rational& x, FractionText fractions) {
 std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
 
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period) {
-  const char* unit = outcome == Outcome::kCycle ? "drives" : "steps";
-  if (IsLoop(outcome) && !reason.empty()) {
-    return fmt::format("{}: from the state after {} {} on {}, the same steps every {} {}, for ever",
-                       Name(outcome), start, unit, reason, period, unit);
-  }
   if (IsLoop(outcome)) {
-    return fmt::format("{}: the state after {} {} recurs {} {} later, for ever", Name(outcome), start, unit,
-                       period, unit);
+    // A reason stands behind a loop in space alone, which stays in a box (certify/exact/published_space.h).
+    const ProvedRun run{reason.empty() ? ProofKind::kStates : ProofKind::kBox, start, period};
+    return fmt::format("{}: {}", Name(outcome), LoopSentence(run, UnitOf(outcome)));
   }
   if (outcome == Outcome::kLimit) return fmt::format("limit: out of {}", reason);
   const std::string name(Name(outcome));

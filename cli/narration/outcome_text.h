@@ -5,6 +5,7 @@
 #define STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
 
 #include <string>
+#include <string_view>
 
 #include "corpus/json_text.h"
 #include "corpus/rational.h"
@@ -18,6 +19,9 @@ enum class FractionText { kFull, kShort };
 // is none, six digits behind a ~.
 std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
 std::string Text(double x, FractionText = FractionText::kFull);  // six digits
+
+// Of the start and the period of a loop.
+inline constexpr std::string_view UnitOf(Outcome loop) { return loop == Outcome::kStall ? "step" : "drive"; }
 
 // "cycle: the state after 3 drives recurs 4 drives later, for ever"
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period);

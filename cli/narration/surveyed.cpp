@@ -213,7 +213,7 @@ std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
                                             const std::vector<std::vector<int>>& groups, const Limits& limits) {
   EnumerationOptions options;
   options.programs = kSurveyPrograms;
-  if (groups.size() == 1) {
+  if (groups.size() <= 1) {
     Existence existence = DecideExistence(problem, limits, options);
     return {std::move(existence.certificate), std::string(existence.method)};
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corpus/json.h"
+#include "corpus/record/definite_block.h"
 
 namespace stiction {
 namespace {

@@ -119,6 +119,33 @@ std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
   return ToDense(problem, problem.name);
 }
 
+namespace {
+
+// Of a scene that makes one problem.
+std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& source) {
+  const auto assembled = [](const auto& file) -> std::optional<ExactFactors> {
+    const auto model = Assemble(file.scene, FindContacts(file.scene));
+    if (model.islands.size() != 1) return std::nullopt;
+    return model.InFactors(0);
+  };
+  try {
+    return std::visit(assembled, ParseAnyScene(JsonText(json), source));
+  } catch (const InputError&) {  // a text in place of one, as where a problem came of it
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<ExactFactors> FactorsBehind(const ProblemFile& file) {
+  if (file.factors || !file.scene) return file.factors;
+  auto factors = FactorsOfScene(*file.scene, file.name);
+  if (!factors || factors->rows() != file.problem.rows()) return std::nullopt;
+  const ExactProblem formed = ToDense(*factors);
+  const bool is_its = formed.A == file.problem.A && formed.b == file.problem.b;
+  return is_its ? std::move(factors) : std::nullopt;
+}
+
 std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
   const std::string source = file.string();
   const std::size_t end = EndOfStore(source);

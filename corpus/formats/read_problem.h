@@ -38,6 +38,10 @@ ProblemFile ReadProblem(const std::filesystem::path& file);
 // The same for what takes any size, and asks for A.
 SparseProblem ReadSparseProblem(const std::filesystem::path& file);
 
+// The factors of a problem: those of its file, or those of the scene that it carries, if the problem is that of
+// the scene.
+std::optional<ExactFactors> FactorsBehind(const ProblemFile& file);
+
 // What STORE:FINDING names; empty of anything else.
 struct NamedFinding {
   std::string store;

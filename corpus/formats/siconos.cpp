@@ -74,9 +74,10 @@ SparseProblem ParseAs(SiconosKind kind, const std::string& text, const std::stri
       if (mu < 0) words.Refuse(ToString(mu), what);
     }
   }
-  words.ExpectEnd();
+  const std::string remark = words.ExpectEnd();
   problem.origin = {{"format", kind == SiconosKind::kLcp ? "siconos-lcp" : "siconos-fc"},
                     {"storage", matrix.storage()}};
+  if (!remark.empty()) problem.origin["remark"] = remark;
   return problem;
 }
 

@@ -5,9 +5,9 @@
 //   friction   dimension, contacts, matrix, q, mu  u = W r + q       static contacts, normal row first
 //
 // Both are a = A f + b with the law of stiction's contacts; at rest a velocity plays the part of an
-// acceleration. Behind the last number may stand one flag, 0 or 1, as Siconos' own files have it, and text,
-// which is a remark; any other number there is an error, and mostly the sign of another kind of problem
-// (siconos_kinds.h). A matrix is its storage type, its rows and columns, and then
+// acceleration. Behind the last number may stand one flag, 0 or 1, as Siconos' own files have it, and below
+// an empty line a remark, which `origin` keeps; anything else there is an error, and mostly the sign of another
+// kind of problem (siconos_kinds.h). A matrix is its storage type, its rows and columns, and then
 //
 //   0   dense     rows and columns again, values column by column
 //   1   blocks    number of blocks, of block rows, of block columns; last row + 1 of every block row, last

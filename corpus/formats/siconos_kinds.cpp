@@ -181,8 +181,9 @@ SparseProblem ParseGlobalFriction(SiconosWords& words) {
     if (mu[i] < 0) words.Refuse(ToString(mu[i]), fmt::format("mu[{}], a number >= 0", i));
     problem.contacts.push_back({ContactKind::kStatic, mu[i], {}});
   }
-  words.ExpectEnd();
+  const std::string remark = words.ExpectEnd();
   problem.origin = {{"format", "siconos-gfc"}, {"storage", M.storage()}};
+  if (!remark.empty()) problem.origin["remark"] = remark;
   if (const auto row = Condense(equations, problem))
     words.Refuse(fmt::format("an M with a zero pivot in row {}", *row), "a positive definite matrix");
   return problem;
@@ -213,7 +214,7 @@ void ReadParts(SiconosWords& words, int n, int m, SparseProblem& problem) {
 SparseProblem ParseMixed(SiconosWords& words) {
   SparseProblem problem;
   const bool has_whole = words.Integer("M is given", 0, 1) == 1;
-  words.Integer("A is given", 0, 1);
+  const bool has_parts = words.Integer("A is given", 0, 1) == 1;
   const int n = words.Count("equations"), m = words.Count("conditions"), rows = n + m;
   problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
   if (has_whole) {
@@ -228,11 +229,14 @@ SparseProblem ParseMixed(SiconosWords& words) {
     M.Read({rows, rows});
     problem.origin["storage"] = M.storage();
     problem.b = ReadVector(words, rows, "q");
+    if (has_parts) words.SkipNumbers(Multiplied(words, rows, rows + 1));  // A, B, C, D, a, b: the same numbers
   } else {
     ReadParts(words, n, m, problem);
   }
+  const std::string remark = words.ExpectEnd();
+  if (!remark.empty()) problem.origin["remark"] = remark;
   DropZeros(problem.A);
-  return problem;  // A, B, C, D may stand behind M: the same numbers
+  return problem;
 }
 
 SparseProblem ParseOlderMixed(SiconosWords& words) {
@@ -241,8 +245,9 @@ SparseProblem ParseOlderMixed(SiconosWords& words) {
   words.Integer("the number of rows", n + m, n + m);
   ReadParts(words, n, m, problem);
   DropZeros(problem.A);
-  words.ExpectEnd();
+  const std::string remark = words.ExpectEnd();
   problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  if (!remark.empty()) problem.origin["remark"] = remark;
   return problem;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f\v";
 constexpr std::size_t kMostInFile = 100'000'000;
+constexpr std::size_t kMostBytesOfRemark = 1000;
 
 std::string Quoted(std::string_view word) { return fmt::format("'{}'", Shortened(Printable(word))); }
 
@@ -36,7 +37,9 @@ void SiconosWords::Refuse(const std::string& found, const std::string& expected)
 }
 
 std::string_view SiconosWords::Next() {
+  const int line = line_;
   while (at_ < text_.size() && kSpace.find(text_[at_]) != kSpace.npos) line_ += text_[at_++] == '\n';
+  lines_passed_ = line_ - line;
   const std::size_t end = std::min(text_.find_first_of(kSpace, at_), text_.size());
   std::string_view word = text_.substr(at_, end - at_);
   at_ = end;
@@ -87,8 +90,8 @@ void SiconosWords::SkipNumbers(int count) {
   }
 }
 
-void SiconosWords::ExpectEnd() {
-  const char* expected = "the end of the file, a single 0 or 1, or text";
+std::string SiconosWords::ExpectEnd() {
+  const char* expected = "the end of the file, a single 0 or 1, or a remark below an empty line";
   int numbers = 0, line = 0;
   std::string_view first, word = Next();
   for (; ParseDouble(word); word = Next()) {
@@ -98,10 +101,24 @@ void SiconosWords::ExpectEnd() {
   }
   if (word == "CSparse") Refuse("another matrix", expected);
   const bool is_flag = numbers == 1 && (first == "0" || first == "1");
-  if (numbers == 0 || is_flag) return;
-  line_ = line;
-  Refuse(fmt::format("{} number{} more, from {} on", numbers, numbers == 1 ? "" : "s", Quoted(first)),
-         expected);
+  if (numbers > 0 && !is_flag) {
+    line_ = line;
+    Refuse(fmt::format("{} number{} more, from {} on", numbers, numbers == 1 ? "" : "s", Quoted(first)),
+           expected);
+  }
+  if (!word.empty() && lines_passed_ < 2) Refuse(fmt::format("text, from {} on", Quoted(word)), expected);
+  if (word.empty()) return "";
+  std::string remark;  // whitespace is one blank
+  for (const char c : text_.substr(static_cast<std::size_t>(word.data() - text_.data()))) {
+    const bool is_blank = std::string_view(" \t\r\n").find(c) != std::string_view::npos;
+    if (!is_blank) {
+      remark += c;
+    } else if (!remark.empty() && remark.back() != ' ') {
+      remark += ' ';
+    }
+  }
+  if (!remark.empty() && remark.back() == ' ') remark.pop_back();
+  return Shortened(Printable(remark), kMostBytesOfRemark);
 }
 
 // ---- Matrices --------------------------------------------------------------------------------

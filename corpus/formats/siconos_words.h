@@ -36,15 +36,16 @@ class SiconosWords {
   // `count` numbers, infinite ones too.
   void SkipNumbers(int count);
 
-  // Behind the last number may stand one flag, 0 or 1, and text: a word that is no number and does not begin a
-  // matrix, and whatever follows it.
-  void ExpectEnd();
+  // Behind the last number may stand one flag, 0 or 1, and below an empty line a remark, which is returned:
+  // words of which the first is no number and begins no matrix.
+  std::string ExpectEnd();
 
  private:
   std::string_view text_;
   const std::string& source_;
   std::size_t at_ = 0;
   int line_ = 1;
+  int lines_passed_ = 0;  // before the last word
 };
 
 // The sizes that a matrix must have; any if negative.

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <climits>
+#include <map>
 #include <tuple>
 #include <utility>
 
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
+#include "corpus/record/definite_block.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -42,13 +45,13 @@ ExactProblem::Vector ReadNumbers(const JsonPlace& place, int count, bool strict,
   return numbers;
 }
 
-// J, and how many velocities it has.
-std::pair<SparseMatrix, int> ReadJacobian(const JsonPlace& place, int rows, bool strict) {
+// J, and how many velocities it has; -1 where it does not tell.
+std::pair<SparseMatrix, int> ReadJacobian(const JsonPlace& place, int rows, bool strict, Faults& faults) {
   const std::string of_contacts = fmt::format("{}, the rows of the contacts", rows);
   SparseMatrix J;
   int velocities = 0;
   if (place.json().is_object()) {
-    place.AllowKeys({"size", "entries"});
+    faults.Try([&] { place.AllowKeys({"size", "entries"}); });
     const JsonPlace size = place.Required("size", "[rows, velocities]");
     if (size.Size("[rows, velocities]") != 2) size.Refuse("[rows, velocities]");
     size[0].Integer(rows, rows, of_contacts);
@@ -58,6 +61,7 @@ std::pair<SparseMatrix, int> ReadJacobian(const JsonPlace& place, int rows, bool
     return {std::move(J), velocities};
   }
   if (strict || !place.json().is_array()) place.Refuse(kJExpected);
+  if (rows == 0 && place.json().empty()) return {std::move(J), -1};  // whose width it does not tell
   if (place.Size(kJExpected) != static_cast<std::size_t>(rows))
     place.Refuse(fmt::format("{} rows", place.json().size()), of_contacts);
   for (int i = 0; i < rows; ++i) {
@@ -104,8 +108,73 @@ ExactSparse BlockDiagonal(const std::vector<Block>& blocks) {
   return matrix;
 }
 
-ExactFactors FromParts(int dimension, std::vector<Contact<Rational>> contacts, FactorParts parts,
-                       const std::vector<Block>& inverses) {
+// inv(M), as far as it is whole, and of the other blocks J inv(M).
+class Inverses {
+ public:
+  explicit Inverses(const FactorParts& parts) : parts_(parts), by_velocity_(parts.w.size()) {
+    for (const auto& [at, value] : parts.J) by_velocity_[at.second].push_back({at.first, &value});
+  }
+
+  // Block k of M, in this order. False if it is not definite.
+  bool Add(std::size_t k) {
+    for (const Block& block : BlocksOf(BlockDiagonal({parts_.M[k]}))) {
+      const int at = std::exchange(next_, next_ + static_cast<int>(block.rows()));
+      if (!(block.rows() > kMostWholeInverse ? AddRows(block, at) : AddWhole(block, at))) return false;
+    }
+    return true;
+  }
+
+  ExactFactors::Matrix Of(ExactFactors::Matrix::Rows J) const {
+    ExactSparse W(J.cols(), J.cols());
+    W.setFromTriplets(W_.begin(), W_.end());
+    ExactFactors::Matrix::Rows JW(J.rows(), J.cols());
+    JW.setFromTriplets(JW_.begin(), JW_.end());
+    return {std::move(J), std::move(W), JW};
+  }
+
+ private:
+  struct Entry {
+    int row;
+    const Rational* value;
+  };
+
+  bool AddWhole(const Block& block, int at) {
+    const auto inverse = InverseOfDefinite(block);
+    if (inverse) AddBlock(*inverse, at, W_);
+    return inverse.has_value();
+  }
+
+  // inv(M) times the rows of J that touch the block.
+  bool AddRows(const Block& block, int at) {
+    if (!IsDefinite(block)) return false;
+    const int size = static_cast<int>(block.rows());
+    std::map<int, int> column_of;  // by row of J
+    for (int k = 0; k < size; ++k) {
+      for (const Entry& entry : by_velocity_[at + k]) column_of.emplace(entry.row, 0);
+    }
+    int columns = 0;
+    for (auto& [row, column] : column_of) column = columns++;
+    Block J = Block::Constant(size, columns, Rational(0));
+    for (int k = 0; k < size; ++k) {
+      for (const Entry& entry : by_velocity_[at + k]) J(k, column_of[entry.row]) = *entry.value;
+    }
+    const Block X = SolveDefinite(block, J);
+    for (const auto& [row, column] : column_of) {
+      for (int k = 0; k < size; ++k) {
+        if (X(k, column) != 0) JW_.emplace_back(row, at + k, X(k, column));
+      }
+    }
+    return true;
+  }
+
+  const FactorParts& parts_;
+  std::vector<std::vector<Entry>> by_velocity_;  // entries of J
+  int next_ = 0;
+  Entries W_, JW_;
+};
+
+ExactFactors FromParts(int dimension, std::vector<Contact<Rational>> contacts, const FactorParts& parts,
+                       const Inverses& inverses) {
   Entries entries;
   for (const auto& [at, value] : parts.J) entries.emplace_back(at.first, at.second, value);
   ExactFactors::Matrix::Rows J(parts.c.size(), parts.w.size());
@@ -113,13 +182,38 @@ ExactFactors FromParts(int dimension, std::vector<Contact<Rational>> contacts, F
   ExactFactors problem;
   problem.dimension = dimension;
   problem.contacts = std::move(contacts);
-  problem.A = {std::move(J), BlockDiagonal(inverses)};
+  problem.A = inverses.Of(std::move(J));
   problem.M = BlockDiagonal(parts.M);
-  problem.b = parts.c;
+  problem.w = parts.w;
+  problem.b = problem.c = parts.c;
   for (const auto& [at, value] : parts.J) problem.b[at.first] += value * parts.w[at.second];
-  problem.w = std::move(parts.w);
-  problem.c = std::move(parts.c);
   return problem;
+}
+
+// W of doubles: the nearest doubles of what is whole, and of other blocks the inverse over doubles.
+Eigen::SparseMatrix<double> InverseInDoubles(const ExactFactors& factors) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const ExactSparse& W = factors.A.W();
+  for (int k = 0; k < W.outerSize(); ++k) {
+    for (ExactSparse::InnerIterator of(W, k); of; ++of) entries.emplace_back(of.row(), k, ToDouble(of.value()));
+  }
+  int at = 0;
+  for (const Block& block : BlocksOf(factors.M)) {
+    const int size = static_cast<int>(block.rows());
+    if (size > kMostWholeInverse) {
+      const Eigen::MatrixXd M = block.unaryExpr(&ToDouble);
+      const Eigen::MatrixXd inverse =
+          Eigen::LDLT<Eigen::MatrixXd>(M).solve(Eigen::MatrixXd::Identity(size, size));
+      for (int j = 0; j < size; ++j) {
+        for (int i = 0; i < size; ++i)
+          entries.emplace_back(at + i, at + j, (inverse(i, j) + inverse(j, i)) / 2);
+      }
+    }
+    at += size;
+  }
+  Eigen::SparseMatrix<double> inverse(W.rows(), W.cols());
+  inverse.setFromTriplets(entries.begin(), entries.end());
+  return inverse;
 }
 
 template <class Numbers>
@@ -130,30 +224,6 @@ Json ExactNumbers(const Numbers& numbers) {
 }
 
 }  // namespace
-
-// [M | I] becomes [I | W] without exchanges of rows; M is definite if all pivots are > 0.
-std::optional<ExactProblem::Matrix> InverseOfDefinite(const ExactProblem::Matrix& M) {
-  const int size = static_cast<int>(M.rows());
-  Block rest = M, W = ZeroBlock(size);
-  for (int i = 0; i < size; ++i) W(i, i) = 1;
-  for (int k = 0; k < size; ++k) {
-    const Rational pivot = rest(k, k);
-    if (pivot <= 0) return std::nullopt;
-    for (int j = 0; j < size; ++j) {
-      rest(k, j) /= pivot;
-      W(k, j) /= pivot;
-    }
-    for (int i = 0; i < size; ++i) {
-      const Rational factor = rest(i, k);
-      if (i == k || factor == 0) continue;
-      for (int j = 0; j < size; ++j) {
-        rest(i, j) -= factor * rest(k, j);
-        W(i, j) -= factor * W(k, j);
-      }
-    }
-  }
-  return W;
-}
 
 std::vector<ExactProblem::Matrix> BlocksOf(const Eigen::SparseMatrix<Rational>& M) {
   const int size = static_cast<int>(M.cols());
@@ -182,13 +252,11 @@ std::vector<ExactProblem::Matrix> BlocksOf(const Eigen::SparseMatrix<Rational>& 
 
 std::optional<ExactFactors> MakeFactors(int dimension, std::vector<Contact<Rational>> contacts,
                                         FactorParts parts) {
-  std::vector<Block> inverses;
-  for (const Block& block : parts.M) {
-    auto inverse = InverseOfDefinite(block);
-    if (!inverse) return std::nullopt;
-    inverses.push_back(*std::move(inverse));
+  Inverses inverses(parts);
+  for (std::size_t k = 0; k < parts.M.size(); ++k) {
+    if (!inverses.Add(k)) return std::nullopt;
   }
-  return FromParts(dimension, std::move(contacts), std::move(parts), inverses);
+  return FromParts(dimension, std::move(contacts), parts, inverses);
 }
 
 int RowsOfFactors(const JsonPlace& place) {
@@ -207,7 +275,8 @@ FactorParts ReadFactorParts(const JsonPlace& place, int rows, bool strict, Fault
   faults.Try([&] { place.AllowKeys({"J", "M", "w", "c"}); });
   faults.Try([&] {
     const JsonPlace J = place.Required("J", kJExpected);
-    if (rows >= 0) std::tie(parts.J, columns) = ReadJacobian(J, rows, strict);
+    if (!J.json().is_object() && (strict || !J.json().is_array())) J.Refuse(kJExpected);
+    if (rows >= 0) std::tie(parts.J, columns) = ReadJacobian(J, rows, strict, faults);
   });
   Faults of_masses(place.source());
   of_masses.Try([&] {
@@ -215,7 +284,7 @@ FactorParts ReadFactorParts(const JsonPlace& place, int rows, bool strict, Fault
     for (std::size_t k = 0; k < M.Size("an array of blocks"); ++k)
       of_masses.Try([&] { parts.M.push_back(ReadBlock(M[k], strict)); });
     const int size = SizeOf(parts.M);
-    if (of_masses.empty() && rows > 0 && columns >= 0 && size != columns)
+    if (of_masses.empty() && columns >= 0 && size != columns)
       M.Refuse(fmt::format("blocks of {} velocities", size), fmt::format("{}, the columns of J", columns));
   });
   faults.Take(of_masses);
@@ -235,23 +304,25 @@ std::optional<ExactFactors> ReadFactors(const JsonPlace& place, int dimension,
                                         Faults& faults) {
   Faults own(place.source());
   FactorParts parts;
-  std::vector<Block> inverses;
   own.Try([&] {
     place.RequireObject();
     parts = ReadFactorParts(place, rows, false, own);
   });
-  const bool is_read = own.empty() && rows >= 0;
-  for (std::size_t k = 0; is_read && k < parts.M.size(); ++k) {
+  if (!own.empty() || rows < 0) {
+    faults.Take(own);
+    return std::nullopt;
+  }
+  Inverses inverses(parts);
+  for (std::size_t k = 0; k < parts.M.size(); ++k) {
     own.Try([&] {
-      auto inverse = InverseOfDefinite(parts.M[k]);
       const JsonPlace M = place.Required("M", "an array of blocks");
-      if (!inverse) M[k].Refuse("a block that is not positive definite", "a positive definite block of masses");
-      inverses.push_back(*std::move(inverse));
+      if (!inverses.Add(k))
+        M[k].Refuse("a block that is not positive definite", "a positive definite block of masses");
     });
   }
   faults.Take(own);
-  if (!own.empty() || rows < 0) return std::nullopt;
-  return FromParts(dimension, contacts, std::move(parts), inverses);
+  if (!own.empty()) return std::nullopt;
+  return FromParts(dimension, contacts, parts, inverses);
 }
 
 Json ToJson(const ExactFactors& factors) {
@@ -298,7 +369,7 @@ FactoredProblem<double> InDoubles(const ExactFactors& factors) {
   for (const Contact<Rational>& contact : factors.contacts)
     rounded.contacts.push_back(
         {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
-  rounded.A = {factors.A.J().unaryExpr(&ToDouble), factors.A.W().unaryExpr(&ToDouble)};
+  rounded.A = {factors.A.J().unaryExpr(&ToDouble), InverseInDoubles(factors)};
   rounded.M = factors.M.unaryExpr(&ToDouble);
   rounded.w = factors.w.unaryExpr(&ToDouble);
   rounded.c = factors.c.unaryExpr(&ToDouble);

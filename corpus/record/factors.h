@@ -7,7 +7,8 @@
 //   w   a number for each velocity
 //   c   a number for each row; without it zeros
 //
-// Written as they are read, M in blocks as small as it falls into.
+// Written as they are read, M in blocks as small as it falls into. Of a block of more than kMostWholeInverse
+// velocities inv(M) is not formed over exact numbers (definite_block.h): J inv(M) is.
 
 #ifndef STICTION_CORPUS_RECORD_FACTORS_H_
 #define STICTION_CORPUS_RECORD_FACTORS_H_
@@ -23,8 +24,7 @@ namespace stiction {
 
 using ExactFactors = FactoredProblem<Rational>;
 
-// The inverse of a symmetric, positive definite matrix; empty if it is not definite.
-std::optional<ExactProblem::Matrix> InverseOfDefinite(const ExactProblem::Matrix& M);
+inline constexpr int kMostWholeInverse = 12;
 
 // The diagonal blocks of a square matrix, as small as it falls into.
 std::vector<ExactProblem::Matrix> BlocksOf(const Eigen::SparseMatrix<Rational>& M);

@@ -18,13 +18,7 @@ namespace stiction {
 // One line that JSON can have, not too long.
 inline bool IsLine(const std::string& text) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (text.size() > kMostBytesOfLine || std::ranges::any_of(text, is_control)) return false;
-  try {
-    Json(text).dump();
-  } catch (const Json::exception&) {  // no UTF-8
-    return false;
-  }
-  return true;
+  return text.size() <= kMostBytesOfLine && std::ranges::none_of(text, is_control) && IsUtf8(text);
 }
 inline const std::string kLineExpected = fmt::format("one line of text of at most {} bytes", kMostBytesOfLine);
 
@@ -78,14 +72,18 @@ Json WriteField(const FieldOf<R>& field, R record) {
   });
 }
 
-// What a file leaves out stays as it is. `others`: keys that stand beside the fields.
+// What a file leaves out stays as it is. `others`: keys that stand beside the fields. What is wrong with the
+// keys and with any field goes to `faults`.
 template <class R>
-void ReadFields(std::span<const FieldOf<R>> fields, const JsonPlace& root, R& record,
+void ReadFields(std::span<const FieldOf<R>> fields, const JsonPlace& root, R& record, Faults& faults,
                 std::vector<std::string> others = {}) {
   for (const FieldOf<R>& field : fields) others.emplace_back(field.name);
-  root.AllowKeys(others);
-  for (const FieldOf<R>& field : fields)
-    if (const auto place = root.Optional(std::string(field.name))) ReadField(field, *place, record);
+  faults.Try([&] { root.AllowKeys(others); });
+  for (const FieldOf<R>& field : fields) {
+    faults.Try([&] {
+      if (const auto place = root.Optional(std::string(field.name))) ReadField(field, *place, record);
+    });
+  }
 }
 
 // Those of one use, added to an object.

@@ -9,6 +9,7 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ class ProblemReader {
   Rational Friction(const JsonPlace& place) const;
   std::array<Rational, 2> Slip(const JsonPlace& place, int dimension) const;
   Matrix DenseRows(const JsonPlace& place, int rows) const;
-  SparseMatrix Entries(const JsonPlace& place, int rows) const;
+  SparseMatrix Entries(const JsonPlace& place, int rows, Faults& faults) const;
   Vector Numbers(const JsonPlace& place, int rows) const;
 
   bool strict_;
@@ -183,6 +184,14 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
   const bool are_counted = of_contacts.empty() && problem.dimension != 0;
   const int rows = are_counted ? RowCount(problem.contacts, problem.dimension) : RowsTold(place);
   ReadMatrix(place, rows, result, faults);
+  // What is missing or wrong above is told; whatever else leaves the sizes open is refused here.
+  if (faults.empty() && (!are_counted || rows < 0)) {
+    faults.Try([&] {
+      place.Child("dimension", place.json())
+          .Refuse("nothing, and no sizes that tell it",
+                  "2 or 3, and b, A or factors.J with a row each for the contacts");
+    });
+  }
   return result;
 }
 
@@ -206,7 +215,7 @@ void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& res
     const JsonPlace A = place.Required("A", strict_ ? kMatrixExpected : kMatrixOrFactors);
     if (rows < 0) return;
     if (A.json().is_object())
-      result.entries = Entries(A, rows);
+      result.entries = Entries(A, rows, faults);
     else
       problem.A = DenseRows(A, rows);
   });
@@ -253,11 +262,12 @@ Contacts ProblemReader::StaticContact(const JsonPlace& mu, int dimension) const 
 
 Contacts ProblemReader::OneContact(const JsonPlace& place, int dimension, Faults& faults) const {
   const std::string kinds = fmt::format("one of {}", fmt::join(kKindNames, ", "));
+  place.RequireObject();
+  faults.Try([&] { place.AllowKeys({"kind", "mu", "slip"}); });
   const JsonPlace named = place.Required("kind", kinds);
   const std::string& name = named.Text(kinds);
   const auto kind = std::find(kKindNames.begin(), kKindNames.end(), name);
   if (kind == kKindNames.end()) named.Refuse(kinds);
-  faults.Try([&] { place.AllowKeys({"kind", "mu", "slip"}); });
 
   Contact<Rational> contact;
   Contacts of_static;
@@ -328,8 +338,8 @@ Matrix ProblemReader::DenseRows(const JsonPlace& place, int rows) const {
   return A;
 }
 
-SparseMatrix ProblemReader::Entries(const JsonPlace& place, int rows) const {
-  place.AllowKeys({"size", "entries"});
+SparseMatrix ProblemReader::Entries(const JsonPlace& place, int rows, Faults& faults) const {
+  faults.Try([&] { place.AllowKeys({"size", "entries"}); });
   const std::string size = fmt::format("{}, the rows of the contacts", rows);
   place.Required("size", size).Integer(rows, rows, size);
   const JsonPlace entries = place.Required("entries", "an array of entries [i, j, value]");
@@ -532,7 +542,8 @@ std::string Indented(const Json& value) {
 }
 
 std::string PrintedEntries(const Json& value) {
-  return fmt::format(R"({{"size": {}, "entries": {}}})", value["size"].dump(), LinePerItem(value["entries"]));
+  return fmt::format(R"({{"size": {}, "entries": {}}})", JsonText(value["size"]),
+                     LinePerItem(value["entries"]));
 }
 
 std::string PrintedFactors(const Json& factors) {
@@ -551,6 +562,7 @@ std::string PrintedValue(const std::string& key, const Json& value) {
 }
 
 std::string PrintFile(const Json& json) {
+  RequireWritable(json);
   std::string text = "{";
   for (const auto& member : json.items()) {
     const bool same_line = member.key() == "version" || member.key() == "dimension";
@@ -564,7 +576,7 @@ std::string PrintFile(const Json& json) {
 std::optional<Rational> ExactValue(const Json& json) {
   if (json.is_string()) return ParseRational(json.get_ref<const std::string&>());
   if (json.is_number_integer()) {
-    const Rational x = *ParseRational(json.dump());
+    const Rational x = *ParseRational(JsonText(json));
     return IsExactDouble(x) ? std::optional(x) : std::nullopt;
   }
   if (json.is_number_float() && std::isfinite(json.get<double>())) return Rational(json.get<double>());
@@ -580,6 +592,12 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
     place.Refuse(fmt::format("a number of at most {} characters", kMostCharactersOfNumber));
   }
   if (!strict || json.is_string()) x = ExactValue(json);
+  const bool is_tiny = json.is_number_float() && std::fpclassify(json.get<double>()) == FP_SUBNORMAL;
+  if (!strict && is_tiny) {
+    place.Refuse(fmt::format("{}, where doubles have fewer digits", Shown(json)),
+                 fmt::format("a number of magnitude {} or more; as a string it is exact",
+                             std::numeric_limits<double>::min()));
+  }
   if (x.has_value()) return *std::move(x);
   if (!strict && json.is_number_integer()) place.Refuse("an integer that is a double exactly, or a string");
   place.Refuse(std::string(strict ? "an exact number as a string" : "a number") +

@@ -16,15 +16,18 @@ namespace stiction {
 // ---- Rotations -------------------------------------------------------------------------------
 
 void ReadTurn(const JsonPlace& place, Vector2<Rational>& rotation) {
-  rotation = ReadVector<Plane>(place);
-  if (!IsUnit(rotation)) place.Refuse("[cos, sin], cos^2 + sin^2 = 1 up to the rounding of doubles");
+  const auto read = ReadVector<Plane>(place);
+  if (!IsUnit(read)) place.Refuse("[cos, sin], cos^2 + sin^2 = 1 up to the rounding of doubles");
+  rotation = read;
 }
 
 void ReadTurn(const JsonPlace& place, Quaternion<Rational>& rotation) {
   const std::string expected = "a quaternion [w, x, y, z], not zero";
   if (place.Size(expected) != 4) place.Refuse(expected);
-  for (std::size_t i = 0; i < 4; ++i) rotation[static_cast<int>(i)] = ExactNumber(place[i]);
-  if (rotation.squaredNorm() == 0) place.Refuse(expected);
+  Quaternion<Rational> read;
+  for (std::size_t i = 0; i < 4; ++i) read[static_cast<int>(i)] = ExactNumber(place[i]);
+  if (read.squaredNorm() == 0) place.Refuse(expected);
+  rotation = read;
 }
 
 namespace {

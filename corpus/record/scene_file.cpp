@@ -19,14 +19,13 @@ constexpr int kSceneVersion = 1;
 
 // ---- Reading ---------------------------------------------------------------------------------
 
-// The dimension, from `least` to `most`.
+// The dimension, from `least` to `most`. A file of another format or version has other keys: it is refused by
+// these alone.
 int ReadHeader(const JsonPlace& place, int least, int most) {
   const std::string format = '"' + std::string(kSceneFormat) + '"', version = std::to_string(kSceneVersion);
   const JsonPlace found = place.Required("format", format);
   if (found.Text(format) != kSceneFormat) found.Refuse(format);
   place.Required("version", version).Integer(kSceneVersion, kSceneVersion, version);
-  place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
-                   "seconds", "bodies", "joints", "contacts", "pairs"});
   const std::string dimension = least == most ? std::to_string(least) : "2 or 3";
   return static_cast<int>(place.Required("dimension", dimension).Integer(least, most, dimension));
 }
@@ -44,88 +43,136 @@ void ForEachOf(const JsonPlace& place, const std::string& key, const Visit& visi
   for (std::size_t i = 0; i < count; ++i) visit((*list)[i]);
 }
 
+// A mass, and an inertia, which shapes tell where all of them could be read.
 template <class Kind>
-void ReadMass(const JsonPlace& place, BodyIn<Kind, Rational>& body) {
+void ReadMass(const JsonPlace& place, bool has_shapes, BodyIn<Kind, Rational>& body, Faults& faults) {
   const auto inertia = place.Optional("inertia");
   if (body.fixed) {
     for (const char* key : {"mass", "inertia", "force", "torque"}) {
-      if (const auto given = place.Optional(key)) given->Refuse(std::string("no ") + key + " of a fixed body");
+      const auto given = place.Optional(key);
+      faults.Try([&] {
+        if (given) given->Refuse(std::string("no ") + key + " of a fixed body");
+      });
     }
     return;
   }
-  if (const auto given = place.Optional("acceleration"))
-    given->Refuse("no acceleration of a body that is not fixed");
-  body.mass = Positive(place.Required("mass", "the mass, a number > 0"));
-  if (inertia) return ReadInertia(*inertia, body.inertia);
-  if (body.shapes.empty()) place.Required("inertia", "an inertia, as there are no shapes to compute it from");
-  body.inertia = UniformInertia(place, body);
+  faults.Try([&] {
+    if (const auto given = place.Optional("acceleration"))
+      given->Refuse("no acceleration of a body that is not fixed");
+  });
+  Faults of_mass(place.source());
+  of_mass.Try([&] { body.mass = Positive(place.Required("mass", "the mass, a number > 0")); });
+  faults.Take(of_mass);
+  faults.Try([&] {
+    if (inertia) return ReadInertia(*inertia, body.inertia);
+    if (!has_shapes || !of_mass.empty()) return;
+    if (body.shapes.empty()) place.Required("inertia", "an inertia, as there are no shapes to compute it from");
+    body.inertia = UniformInertia(place, body);
+  });
 }
 
 template <class Kind>
-void ReadMotion(const JsonPlace& place, BodyIn<Kind, Rational>& body) {
-  ReadRotation(place, body.rotation);
-  if (const auto position = place.Optional("position")) body.position = ReadVector<Kind>(*position);
-  if (const auto velocity = place.Optional("velocity")) body.velocity = ReadVector<Kind>(*velocity);
-  if (const auto spin = place.Optional("spin")) ReadSpin(*spin, body.spin);
-  if (const auto given = place.Optional("acceleration")) body.acceleration = ReadVector<Kind>(*given);
-  if (const auto force = place.Optional("force")) body.force = ReadVector<Kind>(*force);
-  if (const auto torque = place.Optional("torque")) ReadSpin(*torque, body.torque);
+void ReadMotion(const JsonPlace& place, BodyIn<Kind, Rational>& body, Faults& faults) {
+  const auto try_key = [&](const char* key, const auto& read) {
+    faults.Try([&] {
+      if (const auto given = place.Optional(key)) read(*given);
+    });
+  };
+  faults.Try([&] { ReadRotation(place, body.rotation); });
+  try_key("position", [&](const JsonPlace& given) { body.position = ReadVector<Kind>(given); });
+  try_key("velocity", [&](const JsonPlace& given) { body.velocity = ReadVector<Kind>(given); });
+  try_key("spin", [&](const JsonPlace& given) { ReadSpin(given, body.spin); });
+  try_key("acceleration", [&](const JsonPlace& given) { body.acceleration = ReadVector<Kind>(given); });
+  try_key("force", [&](const JsonPlace& given) { body.force = ReadVector<Kind>(given); });
+  try_key("torque", [&](const JsonPlace& given) { ReadSpin(given, body.torque); });
+  try_key("level", [&](const JsonPlace& given) {
+    body.level = static_cast<int>(given.Integer(-1000, 1000, "a level from -1000 to 1000"));
+  });
 }
 
+// As far as it can be read: what is wrong goes to `faults`.
 template <class Kind>
-BodyIn<Kind, Rational> ReadBody(const JsonPlace& place) {
+BodyIn<Kind, Rational> ReadBody(const JsonPlace& place, Faults& faults) {
   place.RequireObject();
   std::vector<std::string> keys = {"name",     "fixed",  "mass",     "inertia", "position",
                                    "rotation", "angle",  "velocity", "spin",    "acceleration",
                                    "force",    "torque", "shapes",   "level"};
   if (Kind::kDimension == 3) keys.insert(keys.begin() + 6, "axis");
-  place.AllowKeys(keys);
+  faults.Try([&] { place.AllowKeys(keys); });
   BodyIn<Kind, Rational> body;
-  body.name = place.Required("name", "a name").Text("a name");
-  if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
-  ForEachOf(place, "shapes", [&body](const JsonPlace& at) { body.shapes.push_back(ReadShape<Kind>(at)); });
-  ReadMass(place, body);
-  ReadMotion(place, body);
-  if (const auto level = place.Optional("level"))
-    body.level = static_cast<int>(level->Integer(-1000, 1000, "a level from -1000 to 1000"));
+  faults.Try([&] { body.name = place.Required("name", "a name").Text("a name"); });
+  Faults of_fixed(place.source()), of_shapes(place.source());
+  of_fixed.Try([&] {
+    if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
+  });
+  of_shapes.Try([&] {
+    ForEachOf(place, "shapes",
+              [&](const JsonPlace& at) { of_shapes.Try([&] { body.shapes.push_back(ReadShape<Kind>(at)); }); });
+  });
+  if (of_fixed.empty()) ReadMass(place, of_shapes.empty(), body, faults);
+  faults.Take(of_fixed);
+  faults.Take(of_shapes);
+  ReadMotion(place, body, faults);
   return body;
 }
 
-// Reads what refers to bodies by their names.
+// Reads what refers to bodies by their names. What is wrong anywhere is told at once.
 template <class Kind>
 class SceneReader {
  public:
   SceneFileIn<Kind> Read(const JsonPlace& place) {
     ReadHeader(place, Kind::kDimension, Kind::kDimension);
-    Numbers(place);
-    place.Required("bodies", "an array of bodies");
-    ForEachOf(place, "bodies", [this](const JsonPlace& at) { AddBody(at); });
-    ForEachOf(place, "joints", [this](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at)); });
-    ForEachOf(place, "contacts", [this](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at)); });
-    ForEachOf(place, "pairs", [this](const JsonPlace& at) { scene_.pairs.push_back(OneRule(at)); });
+    Faults faults(place.source());
+    faults.Try([&] {
+      place.AllowKeys({"format", "version", "name", "dimension", "note", "gravity", "mu", "gap", "rest", "step",
+                       "seconds", "bodies", "joints", "contacts", "pairs"});
+    });
+    Numbers(place, faults);
+    faults.Try([&] { place.Required("bodies", "an array of bodies"); });
+    TryEachOf(place, "bodies", faults, [&](const JsonPlace& at) { AddBody(at, faults); });
+    TryEachOf(place, "joints", faults,
+              [&](const JsonPlace& at) { scene_.joints.push_back(OneJoint(at, faults)); });
+    TryEachOf(place, "contacts", faults,
+              [&](const JsonPlace& at) { scene_.contacts.push_back(OneContact(at, faults)); });
+    TryEachOf(place, "pairs", faults,
+              [&](const JsonPlace& at) { scene_.pairs.push_back(OneRule(at, faults)); });
+    faults.Throw();
     return std::move(file_);
   }
 
  private:
   using Vector = typename Kind::template Vector<Rational>;
 
-  void Numbers(const JsonPlace& place) {
-    scene_.name = place.Required("name", "a string").Text("a string");
-    scene_.gap = Rational(1, 1000);
-    if (const auto note = place.Optional("note")) file_.note = note->Text("a string");
-    if (const auto mu = place.Optional("mu")) scene_.mu = NotNegative(*mu);
-    if (const auto gap = place.Optional("gap")) scene_.gap = NotNegative(*gap);
-    if (const auto rest = place.Optional("rest")) scene_.rest = NotNegative(*rest);
-    if (const auto step = place.Optional("step")) file_.step = Positive(*step);
-    if (const auto seconds = place.Optional("seconds")) file_.seconds = Positive(*seconds);
-    if (const auto gravity = place.Optional("gravity")) scene_.gravity = ReadVector<Kind>(*gravity);
+  template <class Visit>
+  static void TryEachOf(const JsonPlace& place, const std::string& key, Faults& faults, const Visit& visit) {
+    faults.Try([&] { ForEachOf(place, key, [&](const JsonPlace& at) { faults.Try([&] { visit(at); }); }); });
   }
 
-  void AddBody(const JsonPlace& place) {
-    BodyIn<Kind, Rational> body = ReadBody<Kind>(place);
-    for (const auto& other : scene_.bodies) {
-      if (other.name == body.name) place.Required("name", "").Refuse("a name of its own");
-    }
+  void Numbers(const JsonPlace& place, Faults& faults) {
+    const auto try_key = [&](const char* key, const auto& read) {
+      faults.Try([&] {
+        if (const auto given = place.Optional(key)) read(*given);
+      });
+    };
+    faults.Try([&] { scene_.name = place.Required("name", "a string").Text("a string"); });
+    scene_.gap = Rational(1, 1000);
+    try_key("note", [&](const JsonPlace& given) { file_.note = given.Text("a string"); });
+    try_key("mu", [&](const JsonPlace& given) { scene_.mu = NotNegative(given); });
+    try_key("gap", [&](const JsonPlace& given) { scene_.gap = NotNegative(given); });
+    try_key("rest", [&](const JsonPlace& given) { scene_.rest = NotNegative(given); });
+    try_key("step", [&](const JsonPlace& given) { file_.step = Positive(given); });
+    try_key("seconds", [&](const JsonPlace& given) { file_.seconds = Positive(given); });
+    try_key("gravity", [&](const JsonPlace& given) { scene_.gravity = ReadVector<Kind>(given); });
+  }
+
+  void AddBody(const JsonPlace& place, Faults& faults) {
+    BodyIn<Kind, Rational> body = ReadBody<Kind>(place, faults);
+    const auto named = place.Optional("name");
+    faults.Try([&] {
+      for (const auto& other : scene_.bodies) {
+        if (named && other.name == body.name) named->Refuse("a name of its own");
+      }
+    });
     scene_.bodies.push_back(std::move(body));
   }
 
@@ -174,10 +221,10 @@ class SceneReader {
     return RotateBack(TurnOf(scene_.bodies[b].rotation), ReadDirection<Kind>(place.Required(world, expected)));
   }
 
-  JointIn<Kind, Rational> OneJoint(const JsonPlace& place) const {
+  JointIn<Kind, Rational> OneJoint(const JsonPlace& place, Faults& faults) const {
     constexpr const auto& kNames = Kind::kJointNames;
     place.RequireObject();
-    place.AllowKeys({"kind", "bodies", "at", "anchors", "direction", "axis", "turn"});
+    faults.Try([&] { place.AllowKeys({"kind", "bodies", "at", "anchors", "direction", "axis", "turn"}); });
     const std::string kinds =
         fmt::format("{} or {}", fmt::join(kNames.begin(), kNames.end() - 1, ", "), kNames.back());
     const JsonPlace named = place.Required("kind", kinds);
@@ -198,9 +245,9 @@ class SceneReader {
     return joint;
   }
 
-  GivenContactIn<Kind, Rational> OneContact(const JsonPlace& place) const {
+  GivenContactIn<Kind, Rational> OneContact(const JsonPlace& place, Faults& faults) const {
     place.RequireObject();
-    place.AllowKeys({"bodies", "at", "anchors", "normal", "axis"});
+    faults.Try([&] { place.AllowKeys({"bodies", "at", "anchors", "normal", "axis"}); });
     GivenContactIn<Kind, Rational> contact;
     Pair(place, contact);
     Anchors(place, contact);
@@ -208,9 +255,9 @@ class SceneReader {
     return contact;
   }
 
-  PairRule<Rational> OneRule(const JsonPlace& place) const {
+  PairRule<Rational> OneRule(const JsonPlace& place, Faults& faults) const {
     place.RequireObject();
-    place.AllowKeys({"bodies", "mu", "collide"});
+    faults.Try([&] { place.AllowKeys({"bodies", "mu", "collide"}); });
     PairRule<Rational> rule;
     Pair(place, rule);
     if (const auto mu = place.Optional("mu")) rule.mu = NotNegative(*mu);
@@ -322,6 +369,7 @@ template Json ToJson(const SceneFileInSpace&);
 template <class Kind>
 std::string Print(const SceneFileIn<Kind>& file) {
   const Json json = ToJson(file);
+  RequireWritable(json);
   std::string text = "{";
   for (const auto& [key, value] : json.items()) {
     text += (text == "{" ? "\n  " : ",\n  ") + JsonText(key) + ": ";

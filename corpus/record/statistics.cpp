@@ -187,7 +187,7 @@ std::string Serialize(const Record& record) {
                                                         {"friction", key.friction},
                                                         {"rank", key.rank},
                                                         {"spread", key.spread}}));
-  return json.dump();
+  return JsonText(json);
 }
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -235,7 +235,7 @@ template <class Tally>
 void ReadCounters(const JsonPlace& place, Tally& tally, std::vector<std::string> others) {
   ForEachCounter(tally, [&](const char* name, std::int64_t& value) {
     others.emplace_back(name);
-    value = ReadCount(place, name);
+    if (std::string_view(name) != kNotInOlderRecords || place.Optional(name)) value = ReadCount(place, name);
   });
   place.AllowKeys(others);
 }

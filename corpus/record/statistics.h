@@ -158,6 +158,9 @@ struct LoopTally {
   bool operator==(const LoopTally&) const = default;
 };
 
+// The counter that records of older versions do not have: they did not count it.
+inline constexpr const char* kNotInOlderRecords = "neither";
+
 // Problems given to a solver under test (search/under_test/), counted together: `spread` is the power of ten
 // below the ratio of the largest to the smallest entry of A's diagonal, which the ratio of masses makes.
 struct UnderTestKey {
@@ -184,6 +187,7 @@ struct UnderTestTally {
   std::int64_t unjudged = 0;  // called solved, and what the law asks for is not known
   std::int64_t leak = 0;
   std::int64_t misses_coulomb = 0;  // passed by its own law, and further than its accuracy from Coulomb's
+  std::int64_t neither = 0;         // passed, and not solved by the strict gate (solver/problem/errors.h)
 
   bool operator==(const UnderTestTally&) const = default;
 };
@@ -258,6 +262,7 @@ void ForEachCounter(Tally&& tally, Visit visit) {
   visit("unjudged", tally.unjudged);
   visit("leak", tally.leak);
   visit("misses_coulomb", tally.misses_coulomb);
+  visit(kNotInOlderRecords, tally.neither);
 }
 
 // All that a unit, a block or a whole campaign counts.

@@ -417,6 +417,13 @@ std::vector<Finding> Store::AddUnit(const Shard& shard, std::int64_t unit, const
   return representatives;
 }
 
+bool Store::AddFinding(const Finding& candidate) {
+  Transaction transaction(db_.get());
+  const bool represents = Represent(candidate);
+  transaction.Commit();
+  return represents;
+}
+
 std::map<std::int64_t, std::string> Store::Elites() const {
   std::map<std::int64_t, std::string> elites;
   Statement rows(db_.get(), "SELECT unit, elites FROM elites ORDER BY unit");

@@ -137,6 +137,9 @@ class Store {
   std::vector<Finding> AddUnit(const Shard& shard, std::int64_t unit, const Record& record,
                                const std::vector<Finding>& candidates, const std::string& elites = {},
                                const Work& work = {});
+  // A candidate of a unit that is still being run, so that it is not lost with the unit. Whether it is now the
+  // representative. It is counted with its unit.
+  bool AddFinding(const Finding& candidate);
   // By unit.
   std::map<std::int64_t, std::string> Elites() const;
   // Fills in a representative, unless a smaller one has taken its place meanwhile. `work` is added to that of

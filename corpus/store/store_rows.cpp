@@ -234,6 +234,11 @@ void ReadMakers(Work& work, const JsonPlace& makers) {
 
 }  // namespace
 
+// A clock that was set back measures less than nothing: no time, and no fault of the store that has it.
+static std::int64_t NoLessThanNone(std::int64_t microseconds) {
+  return std::max<std::int64_t>(0, microseconds);
+}
+
 Work ReadWorkRow(const Statement& row) {
   const std::string source = RowName(StoreTableNamed("work"), row);
   Work work;
@@ -245,7 +250,8 @@ Work ReadWorkRow(const Statement& row) {
   std::vector<std::string> names;
   ForEachPart(work.time, [&](const char* name, const char*, std::int64_t& value) {
     names.emplace_back(name);
-    value = parts.Required(name, "microseconds").Integer(0, std::int64_t{1} << 53, "microseconds");
+    constexpr std::int64_t kMost = std::int64_t{1} << 53;
+    value = NoLessThanNone(parts.Required(name, "microseconds").Integer(-kMost, kMost, "microseconds"));
   });
   parts.AllowKeys(names);
   return work;
@@ -263,10 +269,12 @@ Work ReadWork(sqlite3* db, const WorkKey& key) {
 void WriteWork(sqlite3* db, const WorkKey& key, const Work& work) {
   Json builds = work.builds, times = Json::object();
   if (!work.machines.empty()) builds = {{"builds", work.builds}, {"machines", work.machines}};
-  ForEachPart(work.time, [&times](const char* name, const char*, std::int64_t value) { times[name] = value; });
+  ForEachPart(work.time, [&times](const char* name, const char*, std::int64_t value) {
+    times[name] = NoLessThanNone(value);
+  });
   PutRow(db, "work",
          {std::int64_t{key.shard.count}, std::int64_t{key.shard.index}, key.block, key.unit, JsonText(builds),
-          times.dump()});
+          JsonText(times)});
 }
 
 std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {

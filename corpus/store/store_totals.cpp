@@ -20,6 +20,7 @@ void AddRecord(StoreTotals& totals) {
   totals.problems = ProblemsOf(totals.record);
   totals.existence = SumOf(totals.record.existence);
   totals.agreement = SumOf(totals.record.agreement);
+  totals.disagreements = totals.agreement.disagreements;
   totals.loops = SumOf(totals.record.loops);
   for (const auto& [signature, count] : totals.record.signatures) ++totals.groups[LabelOf(signature)];
 }
@@ -27,6 +28,9 @@ void AddRecord(StoreTotals& totals) {
 void AddFinding(StoreTotals& totals, Finding finding) {
   ++(finding.done ? totals.finished : totals.pending);
   if (IsGrave(finding.kind)) totals.grave.push_back(finding);
+  // Its signature stays that of what it was met as.
+  totals.disagreements +=
+      finding.kind == kDisagreementOfMethods && KindOf(finding.signature) != kDisagreementOfMethods;
   if (!finding.done || finding.minimized.empty()) return;
   if (IsLoopKind(finding.kind)) {
     const Json facts = MinimizedFacts(finding);

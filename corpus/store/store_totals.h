@@ -33,6 +33,8 @@ struct StoreTotals {
   CountsByLabel groups;  // signatures, by label
   ExistenceTally existence;
   AgreementTally agreement;
+  // Of exact methods: met by units, and shown only when a finding was finished.
+  std::int64_t disagreements = 0;
   LoopTally loops;             // by_zero_steps stays empty
   std::vector<Finding> grave;  // representatives
   std::int64_t finished = 0, pending = 0;

@@ -19,14 +19,15 @@ from . import plots  # which imports nothing of others before it draws
 from ._campaigns import Best, Finding, Store, draw, interval, search
 from ._explained import Explanation, explain, methods, policies
 from ._many import Answers, replay_many, solve_many
-from ._methods import Answer, Certificate, Pivot, Replay, certify, check, ends, replay, solve, solve_all
+from ._methods import (Answer, Certificate, Decision, Pivot, Replay, certify, check, decide, ends, replay, solve,
+                       solve_all)
 from ._problem import Problem, load
 from ._simulation import Simulation, assemble, simulate
 from ._stiction import __version__
 
-__all__ = ["Answer", "Answers", "Best", "Certificate", "Explanation", "Finding", "Pivot", "Problem", "Replay",
-           "Simulation", "Store", "assemble", "certify", "check", "draw", "ends", "explain", "interval", "load",
-           "methods", "policies", "replay", "replay_many", "search", "simulate", "solve", "solve_all",
+__all__ = ["Answer", "Answers", "Best", "Certificate", "Decision", "Explanation", "Finding", "Pivot", "Problem",
+           "Replay", "Simulation", "Store", "assemble", "certify", "check", "decide", "draw", "ends", "explain",
+           "interval", "load", "methods", "policies", "replay", "replay_many", "search", "simulate", "solve", "solve_all",
            "solve_many"]  # and __version__, and the module plots
 
 for _name in __all__:

@@ -26,7 +26,8 @@ class Finding:
     `problem` is that one as it was found: number `index` of unit `unit` of the campaign with `seed`. `outcome` is
     that of exact arithmetic, `inexact_outcome` that of doubles. What follows is there once it is `finished`:
     `minimized` is a smaller problem of the same group; `policies` counts how `problem` ends under all planar
-    readings, if it has at most four contacts. `certificate` speaks of the minimized problem where there is one,
+    readings, if it has at most four contacts. `sentence` is what is proved of its loop, empty of what is none: that a
+    state recurs, or in space that the run never leaves a box. `certificate` speaks of the minimized problem where there is one,
     otherwise of the problem; so does `existence`, that there is a solution or that there is none.
     """
 
@@ -47,6 +48,7 @@ class Finding:
     certificate: Certificate | None
     existence: Certificate | None
     policies: dict[str, int]
+    sentence: str
     facts: dict[str, Any]  # all that the store says of it besides
 
     def __repr__(self) -> str:
@@ -66,7 +68,7 @@ def _finding(row: Mapping[str, Any], seed: int) -> Finding:
         row["signature"], row["kind"], row["count"], row["exact_outcome"], row["inexact_outcome"], row["generator"],
         row["contacts"], row["policy"], seed, row["unit"], row["idx"], bool(row["done"]), problem, minimized,
         _certificate(row[of + "certificate"]), _certificate(row[of + "existence"]),
-        facts.get("found", {}).get("grid", {}), facts)
+        facts.get("found", {}).get("grid", {}), row["sentence"], facts)
 
 
 def _column(cells: Sequence[Any], is_text: bool) -> NDArray[Any]:

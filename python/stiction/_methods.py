@@ -127,7 +127,8 @@ class Pivot(_Forces):
 
 @dataclass(frozen=True, repr=False)
 class Replay:
-    """A run of `problem`: of a loop, the state after `start` drives recurs `period` drives later.
+    """A run of `problem`: of a loop, the state after `start` drives recurs `period` drives later, in space over rounded
+    numbers; `json["over_intervals"]` has what is proved there, which may be that the run never leaves a box.
 
     A notebook shows it as a page in which to step through it, beside complete driving.
     """
@@ -174,12 +175,42 @@ class Certificate:
     text: str
 
     def __repr__(self) -> str:
-        return f"<stiction.Certificate {self.kind!r}, {len(self.text)} characters>"
+        named = len(self.policies()) if self.kind in ("cycle", "counterexample", "endless", "ray") else 0
+        of = f" of {named:,} {'policy' if named == 1 else 'policies'}" if named else ""
+        return f"<stiction.Certificate {self.kind!r}{of}, {len(self.text)} characters>"
+
+    def policies(self) -> list[str]:
+        """The policies of which it speaks, if it speaks of runs of the published algorithm."""
+        witness = self.to_json()["witness"]
+        if "policy" in witness:
+            return [witness["policy"]]
+        return [policy for run in witness.get("runs", []) for policy in run["policies"]]
 
     def to_json(self) -> dict[str, Any]:
         """The certificate as dictionaries and lists."""
         fields: dict[str, Any] = json.loads(self.text)
         return fields
+
+
+@dataclass(frozen=True, repr=False)
+class Decision:
+    """What is known of a claim: `state` is 'proved', 'disproved' or 'not decided'.
+
+    `certificate` is of the claim, of its negation, or, where the claim holds under some of the policies asked for, of
+    those; None where there is none. `reason` says in words what is not in it: the run that ends otherwise, the budget
+    that was spent. `policies` counts them: `asked`, `so`, `certified`, and of the others, `otherwise`, how they end.
+    """
+
+    claim: str
+    state: str
+    certificate: Certificate | None
+    reason: str
+    policies: dict[str, Any]
+
+    def __repr__(self) -> str:
+        kind = self.certificate.kind if self.certificate else self.claim
+        proof = f", {kind}" if kind != self.claim else ""
+        return f"<stiction.Decision {self.claim!r} {self.state}{proof}{f': {self.reason}' if self.reason else ''}>"
 
 
 # ---- Solving, replaying, certifying ----
@@ -258,16 +289,30 @@ def ends(problem: Problem, *, arithmetic: str = "", sides: int = 8, max_drives: 
 def certify(problem: Problem, claim: str = "existence", policy: str = "paper", *, law: str = "",
             max_drives: int | None = None, max_pivots: int | None = None,
             max_bits: int | None = None) -> Certificate | None:
-    """A certificate of a claim that `stiction certify --claim` knows, or of its negation.
+    """The certificate of `decide`: of a claim, of its negation, or of those of the policies under which it holds.
 
-    None where nothing that was run shows either: within the budgets, which are of runs of a method. Policy '*' is the
-    whole planar grid. A law is chosen of the claim 'existence' in space: Coulomb's, unless it is 'baraff'.
+    None where there is none: the claim is not decided, or a run shows that it is false, which `decide` tells.
+    """
+    return decide(problem, claim, policy, law=law, max_drives=max_drives, max_pivots=max_pivots,
+                  max_bits=max_bits).certificate
+
+
+def decide(problem: Problem, claim: str = "existence", policy: str = "paper", *, law: str = "",
+           max_drives: int | None = None, max_pivots: int | None = None,
+           max_bits: int | None = None) -> Decision:
+    """Whether a claim that `stiction certify --claim` knows is proved, disproved or not decided.
+
+    It is not decided where a budget is spent, which are of runs of a method, or a sign cannot be told. Policy '*' is
+    the whole planar grid, and the claim then is made of every policy. A law is chosen of the claim 'existence' in
+    space: Coulomb's, unless it is 'baraff'.
     """
     given = compiled(problem, "certify")
     require_text(claim=claim, policy=policy, law=law)
-    text = _stiction.certify(given, claim, policy, law,
+    said = _stiction.certify(given, claim, policy, law,
                              chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
-    return None if text is None else Certificate(json.loads(text)["claim"], text)
+    text = said["certificate"]
+    return Decision(claim, said["state"], None if text is None else Certificate(json.loads(text)["claim"], text),
+                    said.get("reason", ""), said.get("policies", {}))
 
 
 def check(problem: Problem, certificate: Certificate | str) -> bool:

@@ -142,7 +142,7 @@ double ValueOf(const Ratio& t) { return static_cast<double>(t.count) / static_ca
 }  // namespace
 
 std::string NameOf(const TallyKey& key) {
-  std::string name = fmt::format("{}, {} contacts", key.generator, key.contacts);
+  std::string name = fmt::format("{}, {}", key.generator, Counted(key.contacts, "contact"));
   if (key.policy != "paper") name += ", policy " + key.policy;
   if (key.method != "baraff") name += ", method " + key.method;
   if (key.arithmetic != "double") name += ", arithmetic " + key.arithmetic;
@@ -192,7 +192,8 @@ std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name) {
   for (const TallyKey& key : keys) generators[key.generator].insert(key.contacts);
   std::string text;
   for (const auto& [generator, contacts] : generators)
-    text += fmt::format("{}{} ({} contacts)", text.empty() ? "" : "; ", generator, fmt::join(contacts, ", "));
+    text += fmt::format("{}{} ({} {})", text.empty() ? "" : "; ", generator, fmt::join(contacts, ", "),
+                        contacts == std::set{1} ? "contact" : "contacts");
   return fmt::format("Only in {}, and not compared: {}.", name, text);
 }
 

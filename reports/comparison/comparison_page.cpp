@@ -95,7 +95,7 @@ Json FileCells(const Table& table) {
   Json json = ToJson(table);
   for (Json& row : json["rows"]) {
     for (Json& cell : row)
-      cell = cell.is_null() ? "" : cell.is_string() ? cell.get<std::string>() : cell.dump();
+      cell = cell.is_null() ? "" : cell.is_string() ? cell.get<std::string>() : JsonText(cell);
   }
   return json;
 }
@@ -153,7 +153,7 @@ std::string ComparisonPage(const Comparison& comparison, const std::string& file
        {"results", NoiseSection(comparison) + Section("rates", "Rates", rates) +
                        Section("steps", "Steps of a run", steps) + CommandSection(file_a, file_b) +
                        FilesBeside()},
-       {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+       {"data", ScriptData(JsonText(data))}});
 }
 
 std::string SolversPage(const SolversCompared& compared, const std::string& about) {

@@ -156,8 +156,10 @@ Table SmallestTable(const std::vector<Store>& stores, const std::vector<std::str
     const ExactProblem problem =
         ParseProblem(raw ? finding.problem : finding.minimized, finding.signature).problem;
     const auto signatures = stores[i].Total().signatures;
-    table.Add({finding.kind, names[i], finding.signature, signatures.at(finding.signature),
-               problem.contacts.size(), !raw, ProblemInWords(problem)});
+    const auto counted = signatures.find(finding.signature);  // not yet, of a unit that is not whole
+    const std::int64_t count = counted == signatures.end() ? 1 : counted->second;
+    table.Add({finding.kind, names[i], finding.signature, count, problem.contacts.size(), !raw,
+               ProblemInWords(problem)});
   }
   return table;
 }

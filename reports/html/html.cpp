@@ -111,8 +111,4 @@ std::string Percent(std::int64_t count, std::int64_t total) {
 
 std::string Mean(std::int64_t sum, std::int64_t count) { return Scaled(1, sum, count); }
 
-std::string Counted(std::int64_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", Grouped(count), noun, count == 1 ? "" : "s");
-}
-
 }  // namespace stiction

@@ -70,8 +70,6 @@ std::string Significant(double x, int digits = 5);
 // count in percent of total, sum per count, two or three digits; "" of nothing.
 std::string Percent(std::int64_t count, std::int64_t total);
 std::string Mean(std::int64_t sum, std::int64_t count);
-// "1 problem", "2 problems".
-std::string Counted(std::int64_t count, const std::string& noun);
 
 }  // namespace stiction
 

@@ -153,8 +153,9 @@ Html MethodsSection(const ReportContent& content) {
 
 Html ExistenceSection(const Record& total) {
   const AgreementTally all = SumOf(total.agreement);
-  const std::string verdict = fmt::format("{} of {} compared problems show a disagreement between methods.",
-                                          Grouped(all.disagreements), Grouped(all.compared));
+  const std::string verdict =
+      fmt::format("{} of {} {} a disagreement between methods.", Grouped(all.disagreements),
+                  Counted(all.compared, "compared problem"), all.disagreements == 1 ? "shows" : "show");
   const Table table = AgreementTable(total);
   return Section(
       "existence", "Existence and agreement",

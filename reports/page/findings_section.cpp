@@ -14,6 +14,7 @@
 #include "corpus/rational.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/store/finding_words.h"
 #include "reports/page/page.h"
 #include "reports/pictures/finding_picture.h"
 #include "reports/tables/discovery.h"
@@ -114,24 +115,19 @@ std::string GridText(const GridOutcomes& grid) {
   return text;
 }
 
-// "The state after 3 drives recurs 4 drives later (17 steps in all)."
-std::string RunText(const RunFacts& run, const Finding& finding) {
-  const std::string steps = Counted(run.steps, "step");
-  const bool cycle = finding.exact_outcome == Name(Outcome::kCycle);
-  const bool stall = finding.exact_outcome == Name(Outcome::kStall);
-  if (!cycle && !stall) return fmt::format("Exactly: {} after {}.", finding.exact_outcome, steps);
-  const std::string unit = cycle ? "drive" : "step";
-  return fmt::format("Under {}: the state after {} recurs {} later, and so on for ever ({} in all).",
-                     finding.policy, Counted(run.start, unit), Counted(run.period, unit), steps);
+// "Under paper: the state after 3 drives recurs 4 drives later, for ever (17 steps in all)."
+std::string RunText(const RunFacts& run, const ProvedRun& proved, const Finding& finding) {
+  if (!IsLoopKind(finding.kind) && finding.exact_outcome != Name(Outcome::kCycle))
+    return fmt::format("Exactly: {} after {}.", finding.exact_outcome, Counted(run.steps, "step"));
+  const std::string steps = proved.steps > 0 ? fmt::format(" ({} in all)", Counted(proved.steps, "step")) : "";
+  return fmt::format("Under {}: {}{}.", finding.policy, LoopSentence(proved, UnitOfLoop(finding)), steps);
 }
 
 // Commands for a shell in the folder of the report.
 std::string CommandsOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
-  const std::string& policy = finding.policy;
   const std::string problem = discovery.HasFiles() ? ShellWord(discovery.files.problem) : "problem.json";
-  std::string text = "stiction replay " + problem;
-  if (policy != "paper") text += " --policy " + ShellWord(policy);
+  std::string text = "stiction replay " + problem + ReplayOptionsOf(finding);
   text = fmt::format("{0} --step\n{0} --html replay.html", text);
   if (!discovery.HasFiles())
     return fmt::format("stiction problem STORE {} {} -o problem.json\n{}", finding.unit, finding.index, text);
@@ -162,9 +158,12 @@ std::string SafeText(const RunFacts& run) {
 std::string StoryOf(const Discovery& discovery) {
   const Finding& finding = *discovery.representative;
   if (!discovery.Finished()) return "Neither certified nor minimized yet; the problem as found:";
-  if (discovery.minimized) return RunText(*discovery.minimized, finding) + SafeText(*discovery.minimized);
+  if (discovery.minimized)
+    return RunText(*discovery.minimized, ProvedRunOf(finding, FindingForm::kMinimized), finding) +
+           SafeText(*discovery.minimized);
   std::string text = fmt::format("In doubles: {}.", finding.inexact_outcome);
-  if (discovery.found) text += " " + RunText(*discovery.found, finding);
+  if (discovery.found)
+    text += " " + RunText(*discovery.found, ProvedRunOf(finding, FindingForm::kFound), finding);
   return text + " Not minimized; the problem as found:";
 }
 
@@ -344,8 +343,10 @@ Json FindingToJson(const Discovery& discovery, const std::optional<Since>& since
   if (const auto& run = discovery.minimized ? discovery.minimized : discovery.found; run) {
     json["looping"] = run->grid.Loops();
     json["policies"] = run->grid.Total();
-    json["start"] = run->start;
-    json["period"] = run->period;
+    // Whose drives are said to recur.
+    const bool recurs = !discovery.IsLoop() || ProvedRunOf(finding, SimplestForm(finding)).Recurs();
+    json["start"] = recurs ? run->start : 0;
+    json["period"] = recurs ? run->period : 0;
   }
   return json;
 }

@@ -47,8 +47,8 @@ std::string ArithmeticOf(const RungLine& line) { return line.arithmetic.substr(0
 bool IsExact(const RungLine& line) { return line.arithmetic == "exact" || line.arithmetic == "filtered"; }
 
 std::string Told(const Runs& runs) {
-  return fmt::format("of {} runs {} were wrong, {} of them silently", Grouped(runs.asked), Grouped(runs.wrong),
-                     Grouped(runs.silent));
+  return fmt::format("of {} {} {} wrong, {} of them silently", Counted(runs.asked, "run"), Grouped(runs.wrong),
+                     runs.wrong == 1 ? "was" : "were", Grouped(runs.silent));
 }
 
 Html MeasuredSentences(const std::vector<RungLine>& lines) {

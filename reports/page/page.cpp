@@ -186,15 +186,14 @@ std::string FilledPage(const std::vector<Table>& figures, const PageParts& parts
   const Json data = {{"figures", FiguresToJson(figures, parts.found + parts.more)},
                      {"findings", parts.findings},
                      {"player", parts.player}};
-  return FilledTemplate(page,
-                        {{"title", Text(parts.title)},
-                         {"heading", Text(parts.heading)},
-                         {"lead", parts.lead},
-                         {"how", parts.how},
-                         {"navigation", parts.navigation},
-                         {"found", parts.found},
-                         {"more", parts.more},
-                         {"data", ScriptData(data.dump(-1, ' ', false, Json::error_handler_t::replace))}});
+  return FilledTemplate(page, {{"title", Text(parts.title)},
+                               {"heading", Text(parts.heading)},
+                               {"lead", parts.lead},
+                               {"how", parts.how},
+                               {"navigation", parts.navigation},
+                               {"found", parts.found},
+                               {"more", parts.more},
+                               {"data", ScriptData(JsonText(data))}});
 }
 
 std::string ResultsPage(const ReportContent& content, const std::vector<Table>& figures) {
@@ -233,7 +232,7 @@ Json ChoicesAmong(const Json& findings) {
 std::string FindingsPage(const ReportContent& content) {
   const std::string page(std::begin(kFindingsTemplate), std::end(kFindingsTemplate));
   const Json findings = FindingsToJson(content.discoveries, content.since);
-  const auto text = [](const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  const auto text = [](const Json& json) { return JsonText(json); };
   std::string lines;
   for (const Json& finding : findings) lines += text(finding) + "\n";
   const Json data = {{"choices", ChoicesAmong(findings)},

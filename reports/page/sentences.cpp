@@ -41,28 +41,28 @@ std::string Spread(const std::set<int>& contacts) {
 Html Asked(const ReportContent& content, const Counts& counts) {
   const Asking asking(content.total);
   if (asking.contacts.empty()) return Html();
-  return Tag("p", {{"class", "asked"}})(fmt::format(
-             "Asked: does the algorithm, as published, always end? {} random problems of {}, from {}, were run "
-             "under {}: {}.",
-             Grouped(ProblemsOf(content.total)), Spread(asking.contacts),
-             Counted(static_cast<std::int64_t>(asking.generators.size()), "generator"),
-             PoliciesText(content.total), Counted(counts.runs, "run"))) +
+  return Tag("p", {{"class", "asked"}})(
+             fmt::format("Asked: does the algorithm, as published, always end? {} of {}, from {}, were run "
+                         "under {}: {}.",
+                         Counted(ProblemsOf(content.total), "random problem"), Spread(asking.contacts),
+                         Counted(static_cast<std::int64_t>(asking.generators.size()), "generator"),
+                         PoliciesText(content.total), Counted(counts.runs, "run"))) +
          Html("\n");
 }
 
-Html LoopSentence(const Counts& sums) {
+Html LoopsSentence(const Counts& sums) {
   const std::int64_t loops = sums.Loops();
   const std::string rate = RateText(loops, sums.runs);
   if (loops == 0)
     return Sentence(
         "No loop was seen.",
-        fmt::format("No run that was repeated exactly repeats a state: {} in a million runs.", rate), "claim");
+        fmt::format("No run that was repeated exactly goes on for ever: {} in a million runs.", rate), "claim");
   return Sentence(
       "It does not always end.",
       fmt::format(
-          "{} of {} runs repeat a state, in exact arithmetic or, in space, by intervals, and so go on for "
-          "ever: {} in a million runs.",
-          Grouped(loops), Grouped(sums.runs), rate),
+          "{} of {} {} on for ever: {} in a million runs. In the plane they repeat a state, exactly; in space, "
+          "as intervals prove, they repeat one or never leave a box.",
+          Grouped(loops), Counted(sums.runs, "run"), loops == 1 ? "goes" : "go", rate),
       "claim");
 }
 
@@ -80,9 +80,10 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   if (finished == 0) return Html();
   return Sentence(
       found + minimized > 0 ? "Not a matter of one policy." : "The policy matters.",
-      fmt::format("Of {} groups of loops that were certified and minimized, {} as minimized, and {} as they "
-                  "were found, loop under every policy that stiction distinguishes; the smallest has {}.",
-                  Grouped(finished), Grouped(minimized), Grouped(found), Counted(smallest, "contact")));
+      fmt::format("Of {} of loops that {} certified and minimized, {} as minimized, and {} as "
+                  "they were found, loop under every policy that stiction distinguishes; the smallest has {}.",
+                  Counted(finished, "group"), finished == 1 ? "was" : "were", Grouped(minimized),
+                  Grouped(found), Counted(smallest, "contact")));
 }
 
 Html OtherFailures(const Counts& sums) {
@@ -104,34 +105,34 @@ Html CompleteSentence(const Record& total) {
   return Sentence(
       all.solved == all.problems ? "Solutions exist, and are found." : "Not all were solved.",
       fmt::format("Complete driving, which turns back where the published algorithm gives up, solved {} of "
-                  "{} problems that were given to it, each solution verified exactly; on {} its path folds.",
-                  Grouped(all.solved), Grouped(all.problems), Grouped(all.with_folds)));
+                  "{} that were given to it, each solution verified exactly; on {} its path folds.",
+                  Grouped(all.solved), Counted(all.problems, "problem"), Grouped(all.with_folds)));
 }
 
 Html AgreementSentence(const Record& total) {
   const AgreementTally all = SumOf(total.agreement);
   if (all.compared == 0) return Html();
-  return Sentence(
-      all.disagreements == 0 ? "The methods agree." : "The methods disagree.",
-      fmt::format("{} of {} problems show a disagreement of the published algorithm, complete driving and "
-                  "Lemke’s method.",
-                  Grouped(all.disagreements), Grouped(all.compared)));
+  return Sentence(all.disagreements == 0 ? "The methods agree." : "The methods disagree.",
+                  fmt::format("{} of {} {} a disagreement of the published algorithm, complete driving and "
+                              "Lemke’s method.",
+                              Grouped(all.disagreements), Counted(all.compared, "problem"),
+                              all.disagreements == 1 ? "shows" : "show"));
 }
 
 Html LyingSentence(const Counts& sums) {
   if (sums.suspicious == 0) return Html();
   const std::int64_t refuted = sums.Of(Outcome::kSolved);
-  std::string text =
-      fmt::format("Of {} suspicious runs in doubles {} are solved in exact arithmetic ({}). ",
-                  Grouped(sums.suspicious), Grouped(refuted), ShareText(refuted, sums.suspicious));
+  std::string text = fmt::format(
+      "Of {} in doubles {} solved in exact arithmetic ({}). ", Counted(sums.suspicious, "suspicious run"),
+      Grouped(refuted) + (refuted == 1 ? " is" : " are"), ShareText(refuted, sums.suspicious));
   text += fmt::format("In {} ({} in a million) doubles end otherwise than exact arithmetic. ",
                       Counted(sums.doubles_differ, "run"), RateText(sums.doubles_differ, sums.runs));
   text += fmt::format("{} called solved what is no solution ({} in a million).", Counted(sums.wrong, "run"),
                       RateText(sums.wrong, sums.runs));
   if (sums.audited > 0)
-    text +=
-        fmt::format(" Of {} runs without a suspicion that were repeated exactly, {} were misjudged ({}).",
-                    Grouped(sums.audited), Grouped(sums.misjudged), ShareText(sums.misjudged, sums.audited));
+    text += fmt::format(" Of {} without a suspicion that were repeated exactly, {} {} misjudged ({}).",
+                        Counted(sums.audited, "run"), Grouped(sums.misjudged),
+                        sums.misjudged == 1 ? "was" : "were", ShareText(sums.misjudged, sums.audited));
   return Sentence("Doubles lie.", text);
 }
 
@@ -141,7 +142,7 @@ Sentences SentencesOf(const ReportContent& content) {
   const Counts sums = CountAll(content.total);
   if (sums.runs == 0) return {};
   return {Asked(content, sums),
-          LoopSentence(sums),
+          LoopsSentence(sums),
           GridSentence(content.discoveries),
           OtherFailures(sums),
           CompleteSentence(content.total),

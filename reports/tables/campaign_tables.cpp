@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "corpus/intervals.h"
+#include "corpus/store/finding_words.h"
 #include "reports/tables/since.h"
 
 namespace stiction {
@@ -102,7 +103,8 @@ Table FindingsTable(const std::vector<Discovery>& discoveries) {
                       "exact_outcome* state* loop_drives loop_steps start period steps whole_grid* "
                       "every_policy_loops* found_grid_@ minimized_contacts minimized_start minimized_period "
                       "minimized_steps minimized_grid_@ problem_file* original_file* certificate_file* "
-                      "existence_file* original_existence_file* safe* minimized_safe* words words_exact*")};
+                      "existence_file* original_existence_file* safe* minimized_safe* words words_exact* "
+                      "proof* minimized_proof*")};
   for (const Discovery& d : discoveries) {
     std::vector<TableCell> cells = {d.signature, d.kind, d.met};
     // The cells are empty where there is nothing to tell.
@@ -131,6 +133,10 @@ Table FindingsTable(const std::vector<Discovery>& discoveries) {
     add(d.found.has_value(), 1, [&] { put({d.found->safe}); });  // where it was decided
     add(d.minimized.has_value(), 1, [&] { put({d.minimized->safe}); });
     add(d.words.has_value(), 2, [&] { put({d.Words(), d.words->IsExact()}); });
+    const bool proves = f != nullptr && d.IsLoop();
+    const auto proof = [&](FindingForm form) { return std::string(Name(ProvedRunOf(*f, form).kind)); };
+    add(proves && d.found, 1, [&] { put({proof(FindingForm::kFound)}); });
+    add(proves && d.minimized, 1, [&] { put({proof(FindingForm::kMinimized)}); });
     table.Add(std::move(cells));
   }
   return table;
@@ -374,7 +380,7 @@ Table FailuresTable(const Record& record, const By& by) {
       Keyed("failures",
             "Failures confirmed exactly, with intervals, per generator, number of contacts and policy", by,
             {{"runs"},
-             {"loops", "a state recurs (cycle or stall) " + hint},
+             {"loops", "never end (cycle or stall) " + hint},
              {"singular", hint},
              {"ray", hint},
              {"audited", "run again exactly without a suspicion, as a sample"},
@@ -388,16 +394,16 @@ Table FailuresTable(const Record& record, const By& by) {
 }
 
 Table OutcomesTable(const Record& record) {
-  Table table = Keyed("outcomes", "Outcomes per generator, number of contacts and policy",
-                      {"generator", "contacts", "policy"},
-                      {{"problems"},
-                       {"solved", "forces that satisfy every condition"},
-                       {"cycle", "the outer state recurs exactly: the algorithm never ends"},
-                       {"stall", "within one drive the inner state recurs exactly: the drive never ends"},
-                       {"ray", "nothing limits the step"},
-                       {"singular", "the direction system has no solution"},
-                       {"limit", "a budget of drives, pivots or bits is spent"},
-                       {"undecided", "a sign could not be told"}});
+  Table table = Keyed(
+      "outcomes", "Outcomes per generator, number of contacts and policy", {"generator", "contacts", "policy"},
+      {{"problems"},
+       {"solved", "forces that satisfy every condition"},
+       {"cycle", "the outer state recurs exactly, or in space the run never leaves a box: it never ends"},
+       {"stall", "within one drive the inner state recurs exactly: the drive never ends"},
+       {"ray", "nothing limits the step"},
+       {"singular", "the direction system has no solution"},
+       {"limit", "a budget of drives, pivots or bits is spent"},
+       {"undecided", "a sign could not be told"}});
   for (Group& g : GroupsAndAll(record, kByAll)) {
     const TallyKey usual;
     // Method and arithmetic are named only where they are not the published algorithm in doubles.

@@ -13,6 +13,7 @@
 
 #include "corpus/json.h"
 #include "corpus/record/kinds.h"
+#include "corpus/store/finding_words.h"
 
 namespace stiction {
 namespace {
@@ -50,14 +51,28 @@ RunFacts ReadRun(const JsonPlace& facts) {
   return run;
 }
 
+// Facts of a run in space count the steps up to where intervals could tell no more; its certificate has all.
+void CountSteps(RunFacts& run, const Finding& finding, FindingForm form) {
+  const bool found = form == FindingForm::kFound;
+  const std::string& certificate = found ? finding.certificate : finding.minimized_certificate;
+  if (certificate.empty() || !IsLoopKind(finding.kind)) return;
+  if (const std::int64_t steps = ProvedRunOf(finding, form).steps; steps > 0) run.steps = steps;
+}
+
 void AddFacts(Discovery& discovery, const Finding& finding) {
   if (finding.facts.empty()) return;
   const std::string source = "facts of " + finding.signature;
   const Json json = ParseJson(finding.facts, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
-  if (const auto found = root.Optional("found")) discovery.found = ReadRun(*found);
-  if (const auto minimized = root.Optional("minimized")) discovery.minimized = ReadRun(*minimized);
+  if (const auto found = root.Optional("found")) {
+    discovery.found = ReadRun(*found);
+    CountSteps(*discovery.found, finding, FindingForm::kFound);
+  }
+  if (const auto minimized = root.Optional("minimized")) {
+    discovery.minimized = ReadRun(*minimized);
+    CountSteps(*discovery.minimized, finding, FindingForm::kMinimized);
+  }
   if (const auto ipopt = root.Optional("ipopt")) {
     discovery.ipopt = {ipopt->Required("outcome", "an outcome of Ipopt").Text("an outcome of Ipopt"),
                        ipopt->Required("starts", "a count").Integer(0, kMostCounted, "a count")};

@@ -8,12 +8,14 @@
 #include <map>
 #include <vector>
 
+#include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/store/finding_words.h"
 #include "corpus/store/store_totals.h"
 #include "reports/tables/campaign_tables.h"
 
@@ -64,7 +66,7 @@ std::string HeadLine(const StoreTotals& t, const Store& store, const std::string
   std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
                                  Counted(t.units, "unit"), store.identity().seed);
   if (t.counts.runs != t.problems)
-    text += fmt::format("; {} runs, each problem under every policy asked for", Grouped(t.counts.runs));
+    text += fmt::format("; {}, each problem under every policy asked for", Counted(t.counts.runs, "run"));
   return Paragraph(text, 0);
 }
 
@@ -91,9 +93,9 @@ std::string LoopsText(const StoreTotals& t) {
                                  PoliciesText(t.record), RateSentence(0, runs)));
   }
   std::string text =
-      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. A state of such a "
-                            "run recurs, in exact "
-                            "arithmetic or, in space, by intervals: so it never ends.",
+      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. In the plane a state "
+                            "of such a run recurs, exactly; in space, as intervals prove, one does or the run "
+                            "never leaves a box: so it never ends.",
                             PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
   const std::string grid =
       t.finished_loops == 0
@@ -122,10 +124,17 @@ std::string FailuresTable(const StoreTotals& t) {
   return table.rows.empty() ? Paragraph("No run fails in exact arithmetic.") : ToText(table);
 }
 
+// What a label of doubles says, which is no disagreement of the exact methods.
+std::string OfDoublesText(const std::string& label) {
+  const std::string words = InWords(label);
+  return IsOfDoubles(KindOf(label + "-")) && words != label ? fmt::format(" ({})", words) : "";
+}
+
 // Groups of findings, by kind.
 std::string GroupsText(const StoreTotals& t) {
   std::vector<std::string> parts;
-  for (const auto& [label, count] : t.groups) parts.push_back(fmt::format("{} of {}", Grouped(count), label));
+  for (const auto& [label, count] : t.groups)
+    parts.push_back(fmt::format("{} of {}{}", Grouped(count), label, OfDoublesText(label)));
   return parts.empty() ? Paragraph("No findings.")
                        : Paragraph(fmt::format("Groups of findings: {}.", fmt::join(parts, ", ")));
 }
@@ -145,9 +154,10 @@ std::string ExistenceText(const StoreTotals& t) {
                                           : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
                               Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
   }
+  const std::string disagree =
+      t.disagreements == 0 ? "they never disagree with each other" : Counted(t.disagreements, "disagreement");
   text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
-                                Counted(a.compared, "problem"), Grouped(a.enumerated),
-                                Counted(a.disagreements, "disagreement")));
+                                Counted(a.compared, "problem"), Grouped(a.enumerated), disagree));
   if (a.safety_decided > 0)
     text += Paragraph(
         fmt::format("{} of {} {} safe (all reduced determinants are positive); under apex=suspended the "
@@ -202,15 +212,13 @@ std::string FindingText(const Finding& finding) {
   const auto number = [&facts](const char* key) { return facts.at(key).get<std::int64_t>(); };
   std::string text = Counted(number("contacts"), "contact");
   if (IsLoopKind(finding.kind)) {
-    const std::string unit = finding.exact_outcome == Name(Outcome::kStall) ? "step" : "drive";
-    text += fmt::format(", the state after {} recurs {} later", Counted(number("start"), unit),
-                        Counted(number("period"), unit));
+    text += ", " + LoopClause(ProvedRunOf(finding, FindingForm::kMinimized), UnitOfLoop(finding));
   } else {
     text += ", " + InWords(finding.kind);
   }
   std::string grid;
   for (const auto& [outcome, count] : facts.at("grid").items())
-    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", count.dump(), outcome);
+    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", JsonText(count), outcome);
   return text + (grid.empty() ? "; in space, over intervals" : "; policies: " + grid);
 }
 
@@ -269,14 +277,14 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
       std::find_if(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
   if (first == t.simplest.end()) return "";
   const std::string problem = "report/findings/" + FileName(first->signature) + ".json";
-  const std::string policy = first->policy == "paper" ? "" : " --policy " + ShellWord(first->policy);
+  const std::string options = ReplayOptionsOf(*first);
   std::string text = "\n" + Heading("The simplest loop: " + first->signature);
   text += Paragraph(FindingText(*first) + ".") +
           ProblemText(ParseProblem(first->minimized, first->signature).problem);
   text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
   text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
-  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, policy));
-  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, policy));
+  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, options));
+  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, options));
   text += Paragraph("The problem as the search drew it:");
   text +=
       Command(fmt::format("{} problem {} {} {}", ProgramName(), ShellWord(file), first->unit, first->index));
@@ -366,7 +374,7 @@ std::string SummaryText(const Store& store, const std::string& file) {
          Paragraph("More as text; all as a page, with files to replay and to check:", 0) +
          Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
          Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file))) +
-         Paragraph("The same search again goes on.", 0);
+         Paragraph("More --minutes or --problems go on from here.", 0);
 }
 
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as, Extent extent) {

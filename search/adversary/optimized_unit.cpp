@@ -51,7 +51,8 @@ Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit,
   finding.contacts = task.contacts;
   finding.policy = PolicyName(campaign.policies.front());
   finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
-  finding.problem = ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))).dump();
+  finding.problem =
+      JsonText(ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))));
   return finding;
 }
 
@@ -80,11 +81,10 @@ std::string ToText(const UnitElites& unit) {
     if (elite.worth.value) json["value"] = *elite.worth.value;
     elites.push_back(std::move(json));
   }
-  return Json{{"elites", std::move(elites)},
-              {"evaluations", unit.evaluations},
-              {"confirmations", unit.confirmations},
-              {"denied", unit.denied}}
-      .dump();
+  return JsonText(Json{{"elites", std::move(elites)},
+                       {"evaluations", unit.evaluations},
+                       {"confirmations", unit.confirmations},
+                       {"denied", unit.denied}});
 }
 
 UnitElites ElitesFromText(const std::string& text, const std::string& source) {
@@ -141,7 +141,7 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   optimization.palette = campaign.palette;
   optimization.seed = ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), 0);
   optimization.parents = StartOf(optimization, parents, campaign.parents);
-  optimization.evaluations = UnitProblems(campaign, task);
+  optimization.evaluations = UnitProblems(campaign, task, unit);
   optimization.policy = campaign.policies.front();
   optimization.limits = campaign.limits;
   optimization.cancelled = cancelled;

@@ -87,7 +87,7 @@ Candidate CandidateOfOne(const std::string& source, const Campaign* campaign) {
   if (source.ends_with(".json")) {
     const Json json = ParseJson(ReadText(source), source);
     if (json.is_object() && json.value("format", Json()) == "stiction-record" && json.contains("problem"))
-      return CandidateOfFile(ParseProblem(json["problem"].dump(), source + ": problem"), source, campaign);
+      return CandidateOfFile(ParseProblem(JsonText(json["problem"]), source + ": problem"), source, campaign);
   }
   return CandidateOfFile(ReadProblem(source), source, campaign);
 }

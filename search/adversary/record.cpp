@@ -44,6 +44,7 @@ bool Encloses(const ExactMatrix& A, const Rational& l, const Rational& u) {
 
 // Bounds that are doubles, as near to the eigenvalues as they can be proved.
 std::optional<std::pair<Rational, Rational>> EigenvalueBounds(const ExactProblem& problem) {
+  if (problem.rows() == 0) return std::nullopt;
   const auto A = Rounded<double>(problem).A;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues().minCoeff(), most = solver.eigenvalues().maxCoeff();
@@ -186,7 +187,7 @@ FrontierRecord ParseFrontierRecord(std::string_view json_text, const std::string
   record.random_evaluations =
       random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
   record.random_command = random.Required("command", "a text").Text("a text");
-  record.problem = ParseProblem(root.Required("problem", "a problem").json().dump(), source + ": problem");
+  record.problem = ParseProblem(JsonText(root.Required("problem", "a problem").json()), source + ": problem");
   record.certificate = root.Required("certificate", "a certificate").json();
   return record;
 }

@@ -188,6 +188,7 @@ std::int64_t LongestNumber(ExactTrial& trial) {
 
 std::optional<double> Condition(const ContactProblem<double>& problem) {
   constexpr double kClear = 1e-10;  // of the largest eigenvalue
+  if (problem.rows() == 0) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(problem.A, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues().minCoeff(), most = solver.eigenvalues().maxCoeff();
   if (!(least > kClear * most)) return std::nullopt;

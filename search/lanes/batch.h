@@ -54,7 +54,7 @@ class Batch {
   Verdict VerdictOf(int i) const;
   bool IsLeft(int i) const { return block_.ends[i].is_left; }
   double Force(int i, int row) const { return block_.f[row][i]; }
-  // The largest of MeasureErrors (solver/problem/errors.h), with accelerations computed anew.
+  // The largest of MeasureLeniently (solver/problem/lenient.h), with accelerations computed anew.
   double Error(int i) const { return block_.error[i]; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of forces in lanes: MeasureErrors of solver/problem/errors.h, of the forces alone, operation by
-// operation; included once by the file of each instruction set.
+// Lenient errors of forces in lanes: MeasureLeniently of solver/problem/lenient.h, of the forces alone,
+// operation by operation; included once by the file of each instruction set.
 
 #include <limits>
 
@@ -23,85 +23,65 @@ class LaneErrors {
   }
 
   Real Largest() const {
-    Real a[Rows], sum[Rows], size[Rows], unit[Rows], force_unit[Rows];
+    Real a[Rows], counted[Rows], size[Rows], unit[Rows], force[Rows];
     for (int i = 0; i < Rows; ++i) {
       a[i] = b_[i];
       for (int j = 0; j < Rows; ++j) a[i] += A_[i][j] * f_[j];
-      sum[i] = size[i] = All(0);
+      size[i] = All(0);
     }
+    for (int contact = 0; contact < kContacts; ++contact) Count(contact, counted);
     for (int j = 0; j < Rows; ++j) {
-      const Real own = Abs(A_[j][j]), asked = Select(own > 0, Abs(b_[j]) / own, All(0));
-      const Real counts = Max(Abs(f_[j]), asked);
-      for (int i = 0; i < Rows; ++i) {
-        sum[i] += Abs(A_[i][j]) * counts;
-        size[i] += Abs(A_[i][j]) * Abs(f_[j]);
-      }
+      for (int i = 0; i < Rows; ++i) size[i] += Abs(A_[i][j]) * counted[j];
     }
-    Mask coupled[kContacts][kContacts];
-    Couple(coupled);
-    Real least[kContacts];
-    for (int contact = 0; contact < kContacts; ++contact) least[contact] = LeastWork(a, size, coupled[contact]);
-    for (int i = 0; i < Rows; ++i) {
-      const Real own = Abs(A_[i][i]);
-      unit[i] = Abs(b_[i]) + Min(sum[i], Root(own * least[i / 2]));
-      force_unit[i] = Select(own > 0, unit[i] / own, All(0));
-    }
+    for (int i = 0; i < Rows; ++i) unit[i] = Abs(b_[i]) + size[i];
+    for (int i = 0; i < Rows; ++i) force[i] = ForceUnit(i, unit);
     Real error = All(0);
     for (int contact = 0; contact < kContacts; ++contact)
-      error = Max(error, ErrorOfContact(contact, a, unit, force_unit));
+      error = Max(error, ErrorOfContact(contact, a, size, unit, force));
     return error;
   }
 
  private:
   static constexpr int kContacts = Rows / 2;
 
-  // Which contacts are of one group (units.h).
-  void Couple(Mask (&coupled)[kContacts][kContacts]) const {
-    for (int m = 0; m < kContacts; ++m) {
-      coupled[m][m] = ~Never();
-      for (int n = 0; n < m; ++n) {
-        Mask touch = Never();
-        for (int i = 2 * m; i < 2 * m + 2; ++i) {
-          for (int j = 2 * n; j < 2 * n + 2; ++j) touch |= (A_[i][j] != 0) | (A_[j][i] != 0);
-        }
-        coupled[m][n] = coupled[n][m] = touch;
-      }
+  // What the forces of a contact count.
+  void Count(int contact, Real (&counted)[Rows]) const {
+    const int n = 2 * contact, t = n + 1;
+    const Mask carries = (f_[n] != 0) | (f_[t] != 0);
+    for (int i = n; i <= t; ++i) {
+      const Real own = Abs(A_[i][i]), asked = Select(own > 0, Abs(b_[i]) / own, All(0));
+      counted[i] = Select(carries, Max(Abs(f_[i]), asked), All(0));
     }
-    for (int through = 0; through < kContacts; ++through) {
-      for (int m = 0; m < kContacts; ++m) {
-        for (int n = 0; n < kContacts; ++n) coupled[m][n] |= coupled[m][through] & coupled[through][n];
-      }
-    }
+    counted[t] = Max(counted[t], counted[n]);
   }
 
-  // Of the contacts in `group`. What is added for others is a zero, which leaves a sum as it is.
-  Real LeastWork(const Real (&a)[Rows], const Real (&size)[Rows], const Mask (&group)[kContacts]) const {
-    const Real rounding = All(4 * (Rows + 2) * std::numeric_limits<double>::epsilon() / 2);
-    Real done = All(0), free = All(0), error = All(0);
+  Real ForceUnit(int j, const Real (&unit)[Rows]) const {
+    Real least = Infinite();
+    Mask noticed = Never();
     for (int i = 0; i < Rows; ++i) {
-      const Real f = Select(group[i / 2], f_[i], All(0));
-      done += f * (a[i] - b_[i]);
-      free += f * b_[i];
-      error += rounding * Abs(f) * (size[i] + Abs(b_[i]));
+      const Real entry = Abs(A_[i][j]);
+      least = Select(entry > 0, Min(least, unit[i] / entry), least);
+      noticed |= entry > 0;
     }
-    return Max(All(0), Min(Abs(done), Abs(free)) - error);
+    const Real own = Abs(A_[j][j]);
+    return Select(own > 0, unit[j] / own, Select(noticed, least, All(0)));
   }
 
-  Real ErrorOfContact(int contact, const Real (&a)[Rows], const Real (&unit)[Rows],
+  Real ErrorOfContact(int contact, const Real (&a)[Rows], const Real (&size)[Rows], const Real (&unit)[Rows],
                       const Real (&force_unit)[Rows]) const {
     const int n = 2 * contact, t = n + 1;
-    const Real zero = All(0), speed = Abs(a[t]);
+    const Real zero = All(0), speed = Abs(a[t]), own = Abs(A_[n][n]);
     const Real limit = Select(f_[n] > 0, mu_[contact] * f_[n], zero);
-    const Real wide = Select(force_unit[n] > 0, mu_[contact] * force_unit[n], zero);
-    const Real friction_unit = Max(force_unit[t], wide);
+    const Real normal = Max(zero, f_[n]) + Select(own > 0, size[n] / own, zero);
+    const Real friction_unit = force_unit[t] + Select(normal > 0, mu_[contact] * normal, zero);
     Real open = InUnits(Max(zero, -a[n]), unit[n]);
     open = Max(open, InUnits(Abs(f_[n]), force_unit[n]));
     open = Max(open, InUnits(Abs(f_[t]), force_unit[t]));
     Real closed = InUnits(Abs(a[n]), unit[n]);
     closed = Max(closed, InUnits(Max(zero, -f_[n]), force_unit[n]));
     const Real sticks = Max(InUnits(speed, unit[t]), InUnits(Max(zero, Abs(f_[t]) - limit), friction_unit));
-    const Real slips =
-        Select(speed > 0, InUnits(Abs(f_[t] + limit * (a[t] / speed)), friction_unit), Infinite());
+    const Real slips = Select((speed > 0) & (limit < Infinite()),
+                              InUnits(Abs(f_[t] + limit * (a[t] / speed)), friction_unit), Infinite());
     return Min(open, Max(closed, Min(sticks, slips)));
   }
 
@@ -110,12 +90,6 @@ class LaneErrors {
     const Real quotient = Select((unit > 0) & (x < Infinite()), x / unit, Infinite());
     return Select(x == 0, All(0), quotient);
   }
-  static Real Root(Real x) {
-    Real root;
-    for (int lane = 0; lane < kLanes; ++lane) root[lane] = __builtin_sqrt(x[lane]);
-    return root;
-  }
-
   Real A_[Rows][Rows], b_[Rows], mu_[kContacts], f_[Rows];
 };
 

@@ -7,6 +7,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -45,7 +46,12 @@ Library Load(const std::string& file) {
   Find(handle, "stiction_solver_solve", library.solve, library.error);
   Find(handle, "stiction_solver_destroy", library.destroy, library.error);
   if (!library.error.empty()) return library;
-  const int interface = library.describe()->interface;
+  const stiction_solver_info* const info = library.describe();
+  if (info == nullptr) {
+    library.error = "stiction_solver_describe returns nothing";
+    return library;
+  }
+  const int interface = info->interface;
   if (interface != STICTION_SOLVER_INTERFACE)
     library.error = fmt::format("interface {}, expected {}", interface, int{STICTION_SOLVER_INTERFACE});
   return library;
@@ -100,6 +106,13 @@ class Posed {
   stiction_solver_problem problem_ = {};
 };
 
+// Null where it is not finite.
+Json ForcesToJson(const std::vector<double>& forces) {
+  Json json = Json::array();
+  for (const double force : forces) json.push_back(std::isfinite(force) ? Json(force) : Json());
+  return json;
+}
+
 bool WriteAll(int descriptor, const std::string& text) {
   for (std::size_t written = 0; written < text.size();) {
     const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
@@ -120,13 +133,14 @@ int AnswerAll(const std::string& file) {
     return 1;
   }
   const stiction_solver_info& info = *library.describe();
-  const bool is_box = info.law == std::string("box");
-  WriteAll(out, JsonText({{"solver", info.name},
-                          {"version", info.version},
-                          {"law", info.law},
-                          {"accuracy", NumberToJson(info.accuracy)},
-                          {"protocol", 1}}) +
-                    "\n");
+  const auto text = [](const char* said) { return said == nullptr ? std::string() : std::string(said); };
+  const bool is_box = text(info.law) == "box";
+  const Json greeting = {{"solver", text(info.name)},
+                         {"version", text(info.version)},
+                         {"law", text(info.law)},
+                         {"accuracy", NumberToJson(info.accuracy)},
+                         {"protocol", 1}};
+  WriteAll(out, greeting.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n");
   mallopt(M_TOP_PAD, 0);  // what leaks takes new pages at once
   malloc_trim(0);
   void* const solver = library.create();
@@ -135,7 +149,7 @@ int AnswerAll(const std::string& file) {
   while (std::getline(std::cin, line)) {
     posed.Take(Json::parse(line), is_box);
     const int solved = library.solve(solver, posed.problem(), posed.forces().data());
-    if (!WriteAll(out, JsonText({{"solved", solved != 0}, {"f", NumbersToJson(posed.forces())}}) + "\n")) break;
+    if (!WriteAll(out, JsonText({{"solved", solved != 0}, {"f", ForcesToJson(posed.forces())}}) + "\n")) break;
   }
   library.destroy(solver);
   return 0;

@@ -12,6 +12,7 @@
 #include "certify/exact/verify_solution.h"
 #include "search/under_test/solver_process.h"
 #include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 
 namespace stiction {
 namespace {
@@ -42,7 +43,7 @@ struct Missed {
 class ContactJudge {
  public:
   ContactJudge(const ExactProblem& problem, const ForceVector& f, const ForceVector& a,
-               const Units<Rational>& units)
+               const LenientUnits<Rational>& units)
       : problem_(problem), f_(f), a_(a), units_(units) {
     layout_.Assign(problem.contacts, problem.dimension);
   }
@@ -62,12 +63,11 @@ class ContactJudge {
     if (limits != nullptr || problem_.dimension == 2) {
       for (int row = n + 1; row < n + problem_.dimension; ++row)
         AddFriction(f_[row], a_[row], limits != nullptr ? (*limits)[row] : LimitOf(contact, n),
-                    UnitOf(contact, n, row), InAcceleration(abs(a_[row]), row), missed);
+                    units_.friction(contact), InAcceleration(abs(a_[row]), row), missed);
     } else {
       const Rational force = Length(f_[n + 1], f_[n + 2]);
-      const Rational unit = std::max(UnitOf(contact, n, n + 1), UnitOf(contact, n, n + 2));
       const Rational beyond = std::max<Rational>(0, force - LimitOf(contact, n));
-      missed.Add(InUnits(beyond, unit), "friction-beyond-limit");
+      missed.Add(InUnits(beyond, units_.friction(contact)), "friction-beyond-limit");
     }
     return missed;
   }
@@ -75,10 +75,6 @@ class ContactJudge {
  private:
   Rational LimitOf(int contact, int n) const {
     return problem_.contacts[contact].mu * std::max<Rational>(0, f_[n]);
-  }
-  // Of friction: that of its row, or mu times that of the normal, in whichever an error is less.
-  Rational UnitOf(int contact, int n, int row) const {
-    return std::max<Rational>(units_.force(row), problem_.contacts[contact].mu * units_.force(n));
   }
   static void AddFriction(const Rational& force, const Rational& a, const Rational& limit, const Rational& unit,
                           const Rational& slip, Missed& missed) {
@@ -97,7 +93,7 @@ class ContactJudge {
 
   const ExactProblem& problem_;
   const ForceVector &f_, &a_;
-  const Units<Rational>& units_;
+  const LenientUnits<Rational>& units_;
   RowLayout<Eigen::Dynamic> layout_;
 };
 
@@ -176,26 +172,33 @@ Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accura
   return SquareRoot<Rational>::Of(std::max(largest, workless));
 }
 
+// By the strict gate, which accuses more than is asked here: what it lets pass needs no rationals.
+bool IsSolved(const ContactProblem<double>& posed, double accuracy, const Eigen::VectorXd& f) {
+  return accuracy > 0 &&
+         BoundErrors(posed, FrictionLaw::kCoulomb, f, GateOf<double>(accuracy)).Largest() <= accuracy;
+}
+
 JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
                          const Eigen::VectorXd& f) {
   JudgedForces judged;
-  const double gate = BoundErrors(posed, FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
-  const bool passes_coulomb = Rational(std::min(gate, std::numeric_limits<double>::max())) <= accuracy;
   const bool is_coulombs = IsCoulombs(law, posed.dimension);
-  if (is_coulombs && passes_coulomb) {
-    judged.error = gate;
+  if (is_coulombs && IsSolved(posed, std::min(ToDouble(accuracy), kSolvedResidual<double>), f)) {
+    const Eigen::VectorXd a = posed.A * f + posed.b;
+    LenientUnits<double> units;
+    judged.error =
+        std::min(MeasureLeniently(posed, FrictionLaw::kCoulomb, f, a, units).error, ToDouble(accuracy));
     return judged;
   }
   const ExactProblem problem = ExactOf(posed);
   const ForceVector exact_f = f.unaryExpr([](double x) { return Rational(x); });
   const ForceVector a = Accelerations(problem, exact_f);
-  Units<Rational> units;
-  const Errors<Rational> errors = MeasureErrors(problem, FrictionLaw::kCoulomb, exact_f, a, units, Rational(0));
+  LenientUnits<Rational> units;
+  const LenientError<Rational> found = MeasureLeniently(problem, FrictionLaw::kCoulomb, exact_f, a, units);
   const ContactJudge contacts(problem, exact_f, a, units);
-  Rational error = errors.Largest();
+  Rational error = found.error;
   Missed worst;
   if (is_coulombs) {
-    if (error > accuracy) worst = contacts.Of(errors.contact, nullptr);
+    if (error > accuracy) worst = contacts.Of(found.contact, nullptr);
   } else {
     const auto limits = LimitsOf(posed, law, exact_f);
     if (!limits) {
@@ -210,7 +213,10 @@ JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, con
     error = worst.amount;
   }
   judged.error = ToDouble(error);
-  if (error <= accuracy) return judged;
+  if (error <= accuracy) {
+    judged.is_neither = is_coulombs && !IsSolved(posed, ToDouble(accuracy), f);
+    return judged;
+  }
   // In space what is left is the direction of friction; in the plane a mode that is missed by a little in each
   // part.
   judged.miss = worst.amount * 2 >= error ? worst.name : "friction-askew";

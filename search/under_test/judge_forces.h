@@ -2,21 +2,22 @@
 // Judges forces that a solver under test calls a solution, by the conditions of its law over rationals: doubles
 // are exact numbers.
 //
-// The laws `frictionless` and `coulomb`, and `pyramid` in the plane, which is the same: errors as the gate of
-// this suite measures them (solver/problem/errors.h). All others row by row, each between its bounds:
+// The laws `frictionless` and `coulomb`, and `pyramid` in the plane, which is the same: wrong is what has a
+// lenient error (solver/problem/lenient.h) above its accuracy, solved what has a strict one within it, and
+// neither what lies between. All others row by row, each between its bounds:
 //
 //   f = low, a >= 0        f = high, a <= 0        low <= f <= high, a = 0
 //
-// what the nearest of the three misses, forces and accelerations in the units of the row
-// (solver/problem/units.h), a tangent's force also in mu times that of its normal. A miss is named after the
-// condition that is missed by most.
+// what the nearest of the three misses, forces and accelerations in lenient units (solver/problem/units.h). A
+// miss is named after the condition that is missed by most.
 //
 // Idle groups: contacts that A couples, with b = 0 at all of them. They have no unit of their own, and what
 // rounds elsewhere leaves forces there in a method that sees the whole matrix. With W the work of all forces of
-// the problem (units.h), their unit of force is sqrt(W / A_ii), the force that alone gives A_ii f^2 = W, and of
-// acceleration sqrt(A_ii W): both change as forces and accelerations do under A -> D A D. Forces of idle groups
-// that are all within the accuracy are taken for none. abs(A_ij) <= sqrt(A_ii A_jj), so the accelerations that
-// they make are within as many times the accuracy as there are rows. Where W = 0 any force is an error.
+// the problem, min(abs(f'Af), abs(b'f)), their unit of force is sqrt(W / A_ii), the force that alone gives A_ii
+// f^2 = W, and of acceleration sqrt(A_ii W): both change as forces and accelerations do under A -> D A D.
+// Forces of idle groups that are all within the accuracy are taken for none. abs(A_ij) <= sqrt(A_ii A_jj), so
+// the accelerations that they make are within as many times the accuracy as there are rows. Where W = 0 any
+// force is an error.
 
 #ifndef STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
 #define STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
@@ -37,6 +38,7 @@ struct JudgedForces {
                          // "presses-and-separates", "moves" (bilateral), "friction-beyond-limit",
                          // "friction-drives-slip", "slips-below-limit", "friction-askew"; empty: it passes
   bool misses_coulomb = false;  // passes, and misses Coulomb's law by more than the accuracy
+  bool is_neither = false;  // by Coulomb's law: passes, and has a strict error (errors.h) above the accuracy
 };
 
 ExactProblem ExactOf(const ContactProblem<double>& problem);

@@ -21,8 +21,8 @@ constexpr int kTurnsOfTime = 3;                           // of which the shorte
 // What the solver makes of candidates, with the findings that it leaves.
 class Aim {
  public:
-  Aim(const Campaign& campaign, std::int64_t unit, SolverProcess& process)
-      : campaign_(campaign), unit_(unit), process_(process) {}
+  Aim(const Campaign& campaign, std::int64_t unit, SolverProcess& process, const TellFinding& tell)
+      : campaign_(campaign), unit_(unit), process_(process), tell_(tell) {}
 
   Tried Try(const Candidate& candidate, const ContactProblem<double>& problem) {
     const ContactProblem<double> posed = PosedFor(campaign_.solver.law, problem);
@@ -65,21 +65,23 @@ class Aim {
     ProblemFile file = FileOf(candidate, fmt::format("{}-{}-{}", generator, unit_, index_));
     file.problem = ExactOf(posed);
     if (campaign_.solver.law == SolverLaw::kFrictionless) file.scene = {};  // it has friction
-    findings.push_back(SolverFinding(campaign_, unit_, index_, process_, ToJson(file).dump(), examined));
+    findings.push_back(SolverFinding(campaign_, unit_, index_, process_, JsonText(ToJson(file)), examined));
+    tell_(findings.back());
   }
 
   const Campaign& campaign_;
   std::int64_t unit_, index_ = 0;
   SolverProcess& process_;
+  const TellFinding& tell_;
 };
 
 }  // namespace
 
 UnitResult RunOptimizedSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
-                                  const std::vector<Candidate>& parents,
-                                  const std::function<bool()>& cancelled) {
+                                  const std::vector<Candidate>& parents, const std::function<bool()>& cancelled,
+                                  const TellFinding& tell) {
   process.Restart();
-  Aim aim(campaign, unit, process);
+  Aim aim(campaign, unit, process, tell);
   UnitResult result =
       RunOptimizedUnit(campaign, unit, parents, cancelled,
                        [&aim](const Candidate& candidate, const ContactProblem<double>& problem) {

@@ -10,6 +10,7 @@
 
 #include "search/adversary/candidate.h"
 #include "search/under_test/solver_process.h"
+#include "search/under_test/solver_unit.h"
 #include "search/units/unit.h"
 
 namespace stiction {
@@ -17,8 +18,8 @@ namespace stiction {
 // Findings are counted by signature; nothing else is, since nothing is drawn at random. Of the objective `time`
 // the unit depends on the machine. May end early when cancelled.
 UnitResult RunOptimizedSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
-                                  const std::vector<Candidate>& parents,
-                                  const std::function<bool()>& cancelled);
+                                  const std::vector<Candidate>& parents, const std::function<bool()>& cancelled,
+                                  const TellFinding& tell);
 
 }  // namespace stiction
 

@@ -67,8 +67,8 @@ ProblemShown ShownOf(const Finding& finding, SolverLaw law) {
   posed.right = RightUnder(law, posed.problem);
   const Forces f = posed.right.f.value_or(Forces::Zero(posed.rows()));
   const ExactProblem exact = ExactOf(posed.problem);
-  Units<Rational> units;
-  units.Take(exact, f, Accelerations(exact, f));
+  LenientUnits<Rational> units;
+  units.Take(exact, f);
   if (law == SolverLaw::kFindex) {
     if (const auto limits = LimitsOf(posed.problem, law, f))
       for (const Rational& limit : *limits) posed.limits.push_back(ToDouble(limit));

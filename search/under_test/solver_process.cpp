@@ -9,10 +9,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <limits>
 
 #include "certify/exact/line_process.h"
@@ -23,21 +26,61 @@
 namespace stiction {
 namespace {
 
-constexpr double kLookEvery = 0.05;  // seconds between looks at its processor time
-constexpr double kGreetingSeconds = 60;
+constexpr double kLookEvery = 0.05;      // seconds between looks at its processor time
+constexpr double kLeastPatience = 0.25;  // of the clock, however little time it has
+constexpr int kMostStarved = 6;          // times as long where it waits for a processor
 
-// Python and others write what JSON has no word for.
-std::string WithNulls(std::string line) {
-  for (const char* word : {"-Infinity", "Infinity", "NaN"}) {
-    for (std::size_t at = line.find(word); at != line.npos; at = line.find(word))
-      line.replace(at, std::strlen(word), "null");
-  }
-  return line;
+// What stands in an answer for a number that no double holds.
+constexpr std::string_view kBeyondDoubles = "beyond doubles";
+
+// The number that begins at `at`, if it is one that overflows; `end` is behind it.
+bool Overflows(const std::string& line, std::size_t at, std::size_t& end) {
+  constexpr std::string_view kOfNumbers = "+-.0123456789eE";
+  end = std::min(line.find_first_not_of(kOfNumbers, at), line.size());
+  double value = 0;
+  const auto read = std::from_chars(line.data() + at, line.data() + end, value);
+  if (read.ec != std::errc::result_out_of_range || read.ptr != line.data() + end) return false;
+  return std::abs(std::strtod(line.substr(at, end - at).c_str(), nullptr)) > 1;  // not one that underflows
 }
 
-// Forces as it wrote them; what is no number is not finite. Empty if this is no answer.
+// A line as JSON: what Python and others write that JSON has no word for is null, and what is beyond doubles a
+// text. In one pass.
+std::string AsJson(const std::string& line) {
+  std::string json;
+  json.reserve(line.size());
+  const std::string_view text = line;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"') {  // a text, as it is
+      std::size_t end = at + 1;
+      while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+      end = std::min(end + 1, text.size());
+      json.append(text.substr(at, end - at));
+      at = end;
+      continue;
+    }
+    std::size_t word = 0;
+    for (const std::string_view known : {"-Infinity", "Infinity", "NaN"})
+      if (word == 0 && text.substr(at, known.size()) == known) word = known.size();
+    if (word > 0) {
+      json += "null";
+      at += word;
+      continue;
+    }
+    std::size_t end = at + 1;
+    if (c == '-' || (c >= '0' && c <= '9')) {
+      json.append(Overflows(line, at, end) ? fmt::format("\"{}\"", kBeyondDoubles) : line.substr(at, end - at));
+    } else {
+      json += c;
+    }
+    at = end;
+  }
+  return json;
+}
+
+// Forces as it wrote them; null is not finite, nor is what no double holds. Empty if this is no answer.
 std::optional<SolverReply> ReadReply(const std::string& line, int rows) {
-  const Json json = Json::parse(WithNulls(line), nullptr, false);
+  const Json json = Json::parse(AsJson(line), nullptr, false);
   if (!json.is_object() || !json.contains("solved") || !json["solved"].is_boolean()) return std::nullopt;
   SolverReply reply;
   reply.solved = json["solved"].get<bool>();
@@ -45,8 +88,12 @@ std::optional<SolverReply> ReadReply(const std::string& line, int rows) {
   if (!json.contains("f")) return reply.solved ? std::nullopt : std::optional(reply);
   const Json& f = json["f"];
   if (!f.is_array() || f.size() != static_cast<std::size_t>(rows)) return std::nullopt;
-  for (int i = 0; i < rows; ++i)
+  for (int i = 0; i < rows; ++i) {
+    const bool is_beyond = f[i] == kBeyondDoubles;
+    if (!f[i].is_number() && !f[i].is_null() && !is_beyond) return std::nullopt;
+    reply.is_in_range = reply.is_in_range && !is_beyond;
     reply.f[i] = f[i].is_number() ? f[i].get<double>() : std::numeric_limits<double>::quiet_NaN();
+  }
   return reply;
 }
 
@@ -64,10 +111,11 @@ std::string RequestOf(const ContactProblem<double>& posed, SolverLaw law) {
                   {"mu", std::move(mu)},
                   {"kinds", std::move(kinds)}};
   if (law == SolverLaw::kBox) request["bounds"] = FixedBounds(posed);
-  return request.dump() + "\n";
+  return JsonText(request) + "\n";
 }
 
-SolverUnderTest ReadGreeting(const std::string& line, const std::string& source) {
+// What it says of itself; `keeps_memory`: that it is not to be asked for leaks.
+SolverUnderTest ReadGreeting(const std::string& line, const std::string& source, bool& keeps_memory) {
   const Json json = ParseJson(line, source);
   const JsonPlace root(json, source, "");
   root.RequireObject();
@@ -84,9 +132,18 @@ SolverUnderTest ReadGreeting(const std::string& line, const std::string& source)
   const double stated = accuracy.json().is_number() ? accuracy.json().get<double>() : 0;
   if (!(stated > 0)) accuracy.Refuse("a number above 0");
   if (about.name.empty()) root.Required("solver", "a name").Refuse("a name");
+  const auto leaks = root.Optional("leaks");
+  if (leaks && !leaks->json().is_boolean()) leaks->Refuse("true or false: whether leaks are looked for");
+  keeps_memory = leaks && !leaks->json().get<bool>();
   about.accuracy = fmt::format("{}", stated);
   return about;
 }
+
+// Stops a search: its counts would be of two solvers.
+class SolverChanged : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 std::string HowItEnded(int status) {
   if (!WIFSIGNALED(status)) return fmt::format("exit-{}", WEXITSTATUS(status));
@@ -133,7 +190,10 @@ std::vector<double> FixedBounds(const ContactProblem<double>& problem) {
   return bounds;
 }
 
-SolverProcess::SolverProcess(std::vector<std::string> command) : command_(std::move(command)) { Start(); }
+SolverProcess::SolverProcess(std::vector<std::string> command, SolverPatience patience)
+    : command_(std::move(command)), patience_(std::move(patience)) {
+  Start();
+}
 
 SolverProcess::~SolverProcess() {
   if (statm_ >= 0) close(statm_);
@@ -141,23 +201,71 @@ SolverProcess::~SolverProcess() {
 
 void SolverProcess::Start() {
   const std::string& file = command_.back();
-  process_ = std::make_unique<LineProcess>(command_, "a library NAME.so or a program that may be executed");
-  const LineProcess::Line line = process_->Read(LineProcess::After(kGreetingSeconds));
-  if (line.end != LineProcess::End::kLine)
-    throw InputError(file + ": found no greeting, expected a line of JSON that says what the solver is");
-  SolverUnderTest about = ReadGreeting(line.text, file);
+  process_ = std::make_unique<LineProcess>(
+      command_, "a library NAME.so or a program that may be executed",
+      LineBounds{kSolverLine, patience_.stopped, [this](std::string_view text) { TakeErrors(text); }});
+  const auto start = LineProcess::Clock::now();
+  const LineProcess::Line line = process_->Read(LineProcess::After(patience_.greeting));
+  const double took = std::chrono::duration<double>(LineProcess::Clock::now() - start).count();
+  if (line.end != LineProcess::End::kLine) {
+    const std::optional<int> status =
+        line.end == LineProcess::End::kDied ? process_->WaitStatus() : std::nullopt;
+    process_.reset();
+    seconds_ += took;
+    throw InputError(
+        fmt::format("{}: found no greeting{}, expected a line of JSON that says what the solver is", file,
+                    status ? ": it ended, " + HowItEnded(*status) : ""));
+  }
+  SolverUnderTest about = ReadGreeting(line.text, file, keeps_memory_);
   if (!about_.name.empty() && about != about_)
-    throw InputError(file +
-                     ": found another solver than before, expected the same one as long as it is tested");
+    throw SolverChanged(file +
+                        ": found another solver than before, expected the same one as long as it is tested");
   about_ = std::move(about);
+  // The next time no longer than it takes, or as a problem may.
+  patience_.greeting = std::min(patience_.greeting, kSolverPatience * std::max(kSolverSeconds, took));
   if (statm_ >= 0) close(statm_);
   statm_ = open(fmt::format("/proc/{}/statm", process_->id()).c_str(), O_RDONLY | O_CLOEXEC);
   first_memory_ = last_memory_ = Memory();
-  const rlimit none = {0, 0};
-  prlimit(process_->id(), RLIMIT_CORE, &none, nullptr);
   const auto most = static_cast<rlim_t>(first_memory_ + kSolverBytes);
   const rlimit memory = {most, most};
   prlimit(process_->id(), RLIMIT_DATA, &memory, nullptr);
+}
+
+// False, with what there is to say, if it does not greet this time.
+bool SolverProcess::StartAgain(SolverReply& reply) {
+  try {
+    Start();
+    return true;
+  } catch (const SolverChanged&) {
+    throw;
+  } catch (const InputError&) {
+    process_.reset();
+    reply = {.end = SolverEnd::kCrashed, .f = {}, .how = std::string(kNoGreeting)};
+    if (patience_.stopped && patience_.stopped()) reply = {.end = SolverEnd::kStopped, .f = {}, .how = ""};
+    return false;
+  }
+}
+
+// A line at a time and without what moves a cursor, as far as the bound goes.
+void SolverProcess::TakeErrors(std::string_view text) {
+  if (errors_ > kSolverErrors) return;
+  std::string shown;
+  bool is_more = false;
+  for (const char c : text) {
+    is_more = errors_ + shown.size() >= kSolverErrors;
+    if (is_more) break;
+    if (line_begins_) shown += "solver: ";
+    line_begins_ = c == '\n';
+    const auto byte = static_cast<unsigned char>(c);
+    shown += c == '\n' || c == '\t' || (byte >= 0x20 && byte != 0x7f) ? c : '?';
+  }
+  errors_ += shown.size();
+  if (is_more) {
+    errors_ = kSolverErrors + 1;
+    shown += fmt::format("{}solver: writes more than that on standard error; what follows is not shown\n",
+                         line_begins_ ? "" : "\n");
+  }
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 std::int64_t SolverProcess::Memory() const {
@@ -177,6 +285,13 @@ double SolverProcess::ProcessSeconds() const {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+// That it could run, and had no processor.
+double SolverProcess::SecondsInQueue() const {
+  double running = 0, waiting = 0;  // nanoseconds
+  std::ifstream(fmt::format("/proc/{}/schedstat", process_->id())) >> running >> waiting;
+  return 1e-9 * waiting;
+}
+
 void SolverProcess::Restart() { process_.reset(); }
 
 SolverReply SolverProcess::Solve(const ContactProblem<double>& posed, double seconds) {
@@ -187,41 +302,63 @@ SolverReply SolverProcess::Solve(const ContactProblem<double>& posed, double sec
 }
 
 SolverReply SolverProcess::AskOnce(const std::string& request, int rows, double seconds) {
-  if (!process_) Start();
+  SolverReply reply;
+  if (!process_ && !StartAgain(reply)) return reply;
   const double before = ProcessSeconds();
-  SolverReply reply = Ask(request, rows, seconds);
-  if (process_) {
+  const auto start = LineProcess::Clock::now();
+  reply = Ask(request, rows, seconds);
+  const std::chrono::duration<double> clock = LineProcess::Clock::now() - start;
+  if (reply.how == kAsleep || reply.how == "closed") {
+    seconds_ += clock.count();
+  } else if (process_) {
     seconds_ += std::max(0.0, ProcessSeconds() - before);
-    last_memory_ = Memory();
   }
+  if (process_) last_memory_ = Memory();
   if (reply.end != SolverEnd::kAnswered) Restart();
   return reply;
 }
 
 SolverReply SolverProcess::Ask(const std::string& request, int rows, double seconds) {
-  const double before = ProcessSeconds();
-  const auto deadline = LineProcess::After(kSolverPatience * seconds);
-  LineProcess::End end = process_->Write(request, deadline);
+  const auto crashed = [](const char* how) {
+    return SolverReply{.end = SolverEnd::kCrashed, .f = {}, .how = how};
+  };
+  if (process_->HasMore()) return crashed("unasked");
+  const double before = ProcessSeconds(), queued = SecondsInQueue();
+  const double patience = std::max(kLeastPatience, kSolverPatience / 2 * seconds);
+  const auto start = LineProcess::Clock::now();
+  LineProcess::End end = process_->Write(request, LineProcess::After(patience));
   bool is_spent = false;  // the processor time
-  while (end == LineProcess::End::kLine) {
-    const LineProcess::Line line = process_->Read(std::min(deadline, LineProcess::After(kLookEvery)));
+  while (end == LineProcess::End::kLine || end == LineProcess::End::kTimeout) {
+    const LineProcess::Line line =
+        process_->Read(LineProcess::After(end == LineProcess::End::kLine ? kLookEvery : 0));
     if (line.end == LineProcess::End::kLine) {
       if (auto reply = ReadReply(line.text, rows)) return *std::move(reply);
-      return {SolverEnd::kCrashed, false, {}, "garbled"};
+      return crashed("garbled");
     }
-    if (line.end == LineProcess::End::kDied) return Died();
+    if (line.end != LineProcess::End::kTimeout) {
+      end = line.end;
+      break;
+    }
     is_spent = ProcessSeconds() - before > seconds;
-    if (is_spent || LineProcess::Clock::now() >= deadline) end = LineProcess::End::kTimeout;
+    const double clock = std::chrono::duration<double>(LineProcess::Clock::now() - start).count();
+    const bool is_asleep = clock - (SecondsInQueue() - queued) > patience || clock > kMostStarved * patience;
+    if (end == LineProcess::End::kTimeout || is_spent || is_asleep)
+      return {.end = SolverEnd::kHung, .f = {}, .how = is_spent ? "" : std::string(kAsleep)};
   }
-  if (end == LineProcess::End::kDied) return Died();
-  return {SolverEnd::kHung, false, {}, is_spent ? "" : std::string(kAsleep)};
+  if (end == LineProcess::End::kFlood) return crashed("flood");
+  if (end == LineProcess::End::kStopped) return {.end = SolverEnd::kStopped, .f = {}, .how = ""};
+  return Died();
 }
 
 SolverReply SolverProcess::Died() {
   const bool was_full = last_memory_ - first_memory_ > kSolverBytes / 2;
-  const std::string how = was_full ? "out-of-memory" : HowItEnded(process_->WaitStatus());
-  process_.reset();
-  return {SolverEnd::kCrashed, false, {}, how};
+  const std::optional<int> status = process_->WaitStatus();
+  if (!status && patience_.stopped && patience_.stopped())
+    return {.end = SolverEnd::kStopped, .f = {}, .how = ""};
+  const std::string how = !status    ? (process_->IsGuarded() ? "closed" : "killed-its-guard")
+                          : was_full ? "out-of-memory"
+                                     : HowItEnded(*status);
+  return {.end = SolverEnd::kCrashed, .f = {}, .how = how};
 }
 
 }  // namespace stiction

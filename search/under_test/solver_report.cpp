@@ -20,6 +20,7 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/store/store_totals.h"
 #include "search/campaign.h"
+#include "search/families.h"
 
 namespace stiction {
 namespace {
@@ -123,6 +124,8 @@ constexpr auto kTestedMembers = std::to_array<ToldOf<T>>({
     {"solver", "{name: text, version: text, law: text, accuracy: text}", "the solver under test",
      [](const T& s) { return kSolverForm.write(s.campaign); }},
     {"units", "integer", "", [](const T& s) -> Json { return s.totals.units; }},
+    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
+     [](const T& s) { return FamiliesToJson(s.store); }},
     {"counts", "counters", "problems by what came of them", CountersOf},
     {"passed", "{count: integer, low: number, high: number}", "with the interval of its share at 95 %",
      [](const T& s) { return ShareToJson(s.sum.passed, s.sum.problems); }},
@@ -190,6 +193,7 @@ std::string SolverText(const Store& store, const std::string& file, const std::s
        s.sum.refused);
   tell("called solved, where bounds of friction are not unique: not judged", s.sum.unjudged);
   tell("passed, and further from Coulomb's law than its accuracy", s.sum.misses_coulomb);
+  tell("passed by the largest units, and not solved by the strict ones", s.sum.neither);
   const Json remarks = RemarksOf(store.identity());
   for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
   for (const Aspect& aspect : kAspects) {
@@ -204,17 +208,23 @@ std::string SolverText(const Store& store, const std::string& file, const std::s
         fmt::format("What is not finished is finished by:\n    {}\n", FinishTestedCommand(file, solver_file));
   if (const std::vector<Finding> findings = BySize(store); !findings.empty())
     text += fmt::format(
-        "The same search with more --problems or --minutes goes on.\nA finding as a problem file, and as a "
+        "More --problems or --minutes go on from here.\nA finding as a problem file, and as a "
         "program:\n    {0} problem {1} {2}\n"
         "    {0} export {1}:{2} --reproducer c -o {2}.c\n",
         ProgramName(), file, findings.front().signature);
   return text;
 }
 
+// At least once: its unit may not be whole.
+static std::int64_t CountOf(const Finding& finding, const std::map<std::string, std::int64_t>& signatures) {
+  const auto counted = signatures.find(finding.signature);
+  return counted == signatures.end() ? 1 : counted->second;
+}
+
 std::string GroupsText(const Store& store) {
   const auto signatures = store.Total().signatures;
   std::string text;
-  for (const Finding& finding : BySize(store)) text += GroupText(finding, signatures.at(finding.signature));
+  for (const Finding& finding : BySize(store)) text += GroupText(finding, CountOf(finding, signatures));
   return text.empty() ? "" : "findings, the smallest first:\n" + text;
 }
 
@@ -224,7 +234,7 @@ Json GroupsToJson(const Store& store) {
   for (const Finding& finding : BySize(store)) {
     groups.push_back({{"signature", finding.signature},
                       {"kind", finding.kind},
-                      {"count", signatures.at(finding.signature)},
+                      {"count", CountOf(finding, signatures)},
                       {"facts", ParseJson(finding.facts, finding.signature)}});
   }
   return groups;

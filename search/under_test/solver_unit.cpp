@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
@@ -26,8 +28,16 @@ constexpr int kMostProcesses = 100;    // of a unit, which ends early where so m
 constexpr int kProcessesOfSleep = 20;  // that one counts for that sleeps: it takes minutes
 // Of a candidate to be simpler: a hang is tried many times, and what is left of it once more in full.
 constexpr double kSecondsOfCandidate = 0.1;
-constexpr std::int64_t kLeakSuspected = std::int64_t{1}
-                                        << 16;  // bytes that the last three quarters of a unit add
+// An error that is kept while a problem is made simpler, in accuracies that the solver states: one that is
+// easily seen, and not one that another rounding hides.
+constexpr int kClearError = 10;
+
+// Leaks are looked for where a unit's own memory grew as that of a leak does: of the problems at which it grew
+// the last ones are tried, each in few calls, and that with which it grows most in many, twice in new
+// processes. All that is as many calls as the unit has problems, at most.
+constexpr std::int64_t kLeakSuspects = 8;
+constexpr std::int64_t CallsOfSuspect(std::int64_t problems) { return problems / 4 / kLeakSuspects; }
+constexpr std::int64_t CallsOfLeak(std::int64_t problems) { return problems * 3 / 8; }
 
 // The power of ten below the ratio of the largest to the smallest entry of the diagonal; 0 where there is none.
 int SpreadOf(const ContactProblem<double>& problem) {
@@ -63,25 +73,25 @@ Json FactsOf(const Examined& examined, std::size_t contacts, std::int64_t leak) 
 
 class SolverUnit {
  public:
-  SolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process)
+  SolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process, const TellFinding& tell)
       : campaign_(campaign),
         unit_(unit),
         task_(TaskOf(Schedule(campaign), unit)),
         process_(process),
-        surroundings_(SurroundingsOf(campaign)) {
-    result_.problems = UnitProblems(campaign, task_);
-    warm_ = result_.problems / 4;
-  }
+        tell_(tell),
+        surroundings_(SurroundingsOf(campaign)),
+        whole_(UnitProblems(campaign, task_, unit)),
+        windows_(whole_, LeastLeak(process)) {}
 
   std::optional<UnitResult> Run(const std::function<bool()>& cancelled) {
     const double before = process_.Seconds();
     process_.Restart();
-    const std::int64_t whole = result_.problems;
-    for (result_.problems = 0; result_.problems < whole && lost_ < kMostProcesses; ++result_.problems) {
-      if (cancelled()) return std::nullopt;
+    for (; result_.problems < whole_ && lost_ < kMostProcesses; ++result_.problems) {
       Try(result_.problems);
+      if (cancelled()) return std::nullopt;
     }
-    if (lost_ < kMostProcesses && last_memory_ - first_memory_ >= kLeakSuspected) TryLeak();
+    if (MayLeak()) TryLeak(cancelled);
+    if (cancelled()) return std::nullopt;
     result_.time = meter_.Read();
     result_.time.doubles += std::llround(1e6 * (process_.Seconds() - before));
     return std::move(result_);
@@ -105,75 +115,91 @@ class SolverUnit {
   void Try(std::int64_t index) {
     Draw(index);
     const Examined examined = Examine(process_, posed_);
+    if (examined.kind == "stopped") return;
     UnderTestTally& tally = TallyOfDrawn();
     ++tally.problems;
     ++CounterOf(tally, examined.kind);
     tally.misses_coulomb += examined.misses_coulomb;
+    tally.neither += examined.is_neither;
     if (examined.kind == "crash" || examined.kind == "hang")
-      lost_ += examined.what == kAsleep ? kProcessesOfSleep : 1;
+      lost_ += examined.what == kAsleep || examined.what == kNoGreeting ? kProcessesOfSleep : 1;
     if (examined.Fails()) Find(index, examined, 0);
     WatchMemory(index);
   }
 
-  // From a quarter of the unit on; a new process begins anew.
   void WatchMemory(std::int64_t index) {
     const std::int64_t memory = process_.Memory();
-    if (index < warm_ || memory == 0 || last_memory_ == 0) first_memory_ = memory;
-    last_memory_ = memory;
+    is_one_process_ = is_one_process_ && memory > 0;
+    windows_.Add(index + 1, memory);
+    if (memory > memory_ && memory_ > 0) suspects_[static_cast<std::size_t>(grown_++ % kLeakSuspects)] = index;
+    memory_ = memory;
   }
 
-  // Of the problems of the unit one that leaks, by halves of which that is kept where memory grows more.
-  void TryLeak() {
-    std::int64_t first = 0, size = result_.problems;
-    while (size > 1) {
-      const std::int64_t half = size / 2;
-      const bool second = GrowthOf(first, half) < GrowthOf(first + half, size - half);
-      first += second ? half : 0;
-      size = second ? size - half : half;
+  bool MayLeak() const {
+    if (campaign_.no_leaks || !is_one_process_ || CallsOfLeak(whole_) < kLeastCallsOfLeak) return false;
+    return result_.problems == whole_ && windows_.Growth() > 0;
+  }
+
+  // Of a problem that leaks twice, as it will when it is looked at again.
+  void TryLeak(const std::function<bool()>& cancelled) {
+    std::int64_t worst = -1, most = 0;
+    for (std::int64_t k = 0; k < std::min(grown_, kLeakSuspects); ++k) {
+      const std::int64_t index = suspects_[static_cast<std::size_t>(k)];
+      const std::int64_t growth = GrowthOf(index);
+      if (cancelled()) return;
+      if (growth > most) worst = index;
+      most = std::max(most, growth);
     }
-    Draw(first);
-    const std::int64_t bytes = LeakOf(process_, posed_);
-    if (bytes == 0) return;
+    if (worst < 0) return;
+    Draw(worst);
+    std::int64_t bytes = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+      bytes = LeakOf(process_, posed_, CallsOfLeak(whole_));
+      if (bytes == 0 || cancelled()) return;
+    }
     ++TallyOfDrawn().leak;
-    Find(first, {.kind = "leak", .what = ""}, bytes);
+    Find(worst, {.kind = "leak", .what = ""}, bytes);
   }
 
-  // Bytes that memory grows by in a new process that solves these problems, in turn, for a second time.
-  std::int64_t GrowthOf(std::int64_t first, std::int64_t size) {
-    constexpr std::int64_t kLeastCalls = 500;
+  // Bytes that memory grows by in the second half of the calls with this problem alone.
+  std::int64_t GrowthOf(std::int64_t index) {
+    Draw(index);
     process_.Restart();
-    const auto solve_all = [&] {
-      for (std::int64_t call = 0; call < std::max(kLeastCalls, size); ++call) {
-        Draw(first + call % size);
-        process_.Solve(posed_);
-      }
-      return process_.Memory();
-    };
-    const std::int64_t before = solve_all();
-    return solve_all() - before;
+    std::int64_t half = 0;
+    const std::int64_t calls = CallsOfSuspect(whole_);
+    for (std::int64_t call = 0; call < calls; ++call) {
+      if (process_.Solve(posed_).end != SolverEnd::kAnswered) return 0;
+      if (call == calls / 2) half = process_.Memory();
+    }
+    return process_.Memory() - half;
   }
 
   void Find(std::int64_t index, const Examined& examined, std::int64_t leak) {
     const std::string signature = examined.Signature(posed_.contacts.size());
     if (++result_.record.signatures[signature] > 1) return;
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
-    result_.candidates.push_back(SolverFinding(campaign_, unit_, index, process_,
-                                               ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_))).dump(),
-                                               examined, leak));
+    result_.candidates.push_back(
+        SolverFinding(campaign_, unit_, index, process_,
+                      JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))), examined, leak));
+    tell_(result_.candidates.back());
   }
 
   const Campaign& campaign_;
   std::int64_t unit_;
   Task task_;
   SolverProcess& process_;
+  const TellFinding& tell_;
   Surroundings surroundings_;
   UnitResult result_;
   WorkMeter meter_;
   ContactProblem<double> problem_, posed_;
   Drawn drawn_;
-  std::int64_t first_memory_ = 0, last_memory_ = 0;
-  std::int64_t warm_ = 0;  // problems after which memory should no longer grow
-  int lost_ = 0;           // processes
+  std::int64_t whole_;  // problems
+  MemoryWindows windows_;
+  bool is_one_process_ = true;
+  std::int64_t memory_ = 0, grown_ = 0;  // after the last problem; how often it was more than before
+  std::array<std::int64_t, kLeakSuspects> suspects_ = {};  // at which it was, the last ones
+  int lost_ = 0;                                           // processes
 };
 
 // ---- Finishing -------------------------------------------------------------------------------
@@ -195,25 +221,55 @@ std::optional<ContactProblem<double>> InDoubles(const ExactProblem& problem) {
   return posed;
 }
 
-// What a problem has of the paper's hypotheses: one that is made simpler keeps it.
-struct Hypotheses {
-  bool is_symmetric, is_semidefinite, is_in_range;
+// What a problem that is made simpler keeps: it is one that bodies make, with A symmetric and semidefinite and
+// b in its range; every row moves under its own force, and something acts, where that was so at first.
+class Promises {
+ public:
+  explicit Promises(const ExactProblem& found)
+      : found_(found), moves_(EachRowMoves(found)), is_loaded_(!found.b.isZero()) {}
 
-  static Hypotheses Of(const ExactProblem& problem) {
-    const bool symmetric = IsSymmetric(problem);
-    return {symmetric, symmetric && IsPositiveSemidefinite(problem), IsInRange(problem)};
+  std::optional<std::string> LackOf(const ExactProblem& problem) const {
+    const bool is_found = problem.rows() == found_.rows() && problem.A == found_.A && problem.b == found_.b;
+    if (is_found) return std::nullopt;  // of doubles, which are not quite what bodies make
+    if (moves_ && !EachRowMoves(problem)) return "a row of A has no entry above 0 on the diagonal";
+    if (is_loaded_ && problem.b.isZero()) return "b is zero";
+    if (!IsSymmetric(problem) || !IsPositiveSemidefinite(problem)) return "A is not what bodies make";
+    if (!IsInRange(problem)) return "b is not in range(A)";
+    return std::nullopt;
   }
-  bool Allow(const ExactProblem& problem) const {
-    return (!is_symmetric || IsSymmetric(problem)) && (!is_semidefinite || IsPositiveSemidefinite(problem)) &&
-           (!is_in_range || IsInRange(problem));
+
+ private:
+  static bool EachRowMoves(const ExactProblem& problem) {
+    for (int i = 0; i < problem.rows(); ++i)
+      if (problem.A(i, i) <= 0) return false;
+    return true;
   }
+
+  const ExactProblem& found_;
+  bool moves_, is_loaded_;
 };
 
-// How a problem fails, of a kind: leaks are looked for where one is sought.
+// Whether a failure is the one that is sought: the same in kind and way and, of what is wrong, as clear.
+class Sought {
+ public:
+  Sought(const Examined& sought, const SolverUnderTest& about)
+      : sought_(sought), least_(std::min(sought.error, kClearError * std::stod(about.accuracy))) {}
+
+  bool FailsAlike(const Examined& examined) const {
+    return examined.kind == sought_.kind && examined.what == sought_.what &&
+           (examined.kind != "silent-wrong" || examined.error >= least_);
+  }
+
+ private:
+  const Examined& sought_;
+  double least_;
+};
+
+// How a problem fails, of a kind: leaks are looked for where one is sought, in so many calls.
 Examined FailureOf(SolverProcess& process, const ContactProblem<double>& posed, std::string_view kind,
-                   double seconds, std::int64_t& leak) {
+                   double seconds, std::int64_t calls, std::int64_t& leak) {
   if (kind != "leak") return Examine(process, posed, seconds);
-  leak = LeakOf(process, posed);
+  leak = LeakOf(process, posed, calls);
   return {.kind = leak > 0 ? "leak" : "passed", .what = ""};
 }
 
@@ -231,8 +287,8 @@ std::string CertificateOfSolution(SolverLaw law, const ExactProblem& problem, co
 }  // namespace
 
 std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
-                                        const std::function<bool()>& cancelled) {
-  return SolverUnit(campaign, unit, process).Run(cancelled);
+                                        const std::function<bool()>& cancelled, const TellFinding& tell) {
+  return SolverUnit(campaign, unit, process, tell).Run(cancelled);
 }
 
 Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t index,
@@ -251,7 +307,8 @@ Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t 
   finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
   finding.exact_outcome = Name(Outcome::kUndecided);
   finding.problem = problem;
-  finding.facts = Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}}.dump();
+  finding.facts =
+      JsonText(Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}});
   return finding;
 }
 
@@ -263,28 +320,29 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   const SolverLaw law = campaign.solver.law;
   Json facts = ParseJson(finding.facts, finding.signature);
   std::int64_t leak = 0;
+  const Task task = TaskOf(Schedule(campaign), finding.unit);
+  const std::int64_t calls = CallsOfLeak(UnitProblems(campaign, task, finding.unit));
   // In a process that has seen no other problem.
   const auto alone = [&](const ExactProblem& tried) {
     process.Restart();
-    return FailureOf(process, *InDoubles(tried), finding.kind, kSolverSeconds, leak);
+    return FailureOf(process, *InDoubles(tried), finding.kind, kSolverSeconds, calls, leak);
   };
   const Examined sought = alone(problem);
-  const auto alike = [&sought](const Examined& examined) {
-    return examined.kind == sought.kind && examined.what == sought.what;
-  };
+  if (cancelled()) return std::nullopt;
+  const Sought like(sought, campaign.solver);
   const auto fails = [&](const ContactProblem<double>& posed) {
-    return alike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, leak));
+    return like.FailsAlike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
   };
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
   facts["alone"] = again;
   finished.existence = CertificateOfSolution(law, problem, campaign.limits);
-  const Hypotheses kept = Hypotheses::Of(problem);
+  const Promises kept(problem);
   MinimizeOptions options;
   options.cancelled = cancelled;
   options.lacks = [&](const ExactProblem& candidate) -> std::optional<std::string> {
     const auto posed = InDoubles(candidate);
     if (!posed) return "a number is no double";
-    if (!kept.Allow(candidate)) return "it leaves the hypotheses";
+    if (auto lack = kept.LackOf(candidate)) return lack;
     if (!fails(*posed)) return "it fails otherwise, or not at all";
     return std::nullopt;
   };
@@ -292,22 +350,23 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
     Minimized minimized = Minimize(problem, options);
     if (minimized.cancelled || cancelled()) return std::nullopt;
     const Examined last = alone(minimized.problem);
-    if (alike(last)) {
+    if (cancelled()) return std::nullopt;
+    if (like.FailsAlike(last)) {
       ProblemFile file;
       file.name = finding.signature;
       file.problem = minimized.problem;
       file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
                          {"minimized", true}};
-      finished.minimized = ToJson(file).dump();
+      finished.minimized = JsonText(ToJson(file));
       finished.minimized_existence = CertificateOfSolution(law, minimized.problem, campaign.limits);
       facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
     }
     const auto scene = SimpleSceneOf(finding, campaign, fails, cancelled);
-    if (cancelled()) return std::nullopt;
-    if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
+    if (scene && like.FailsAlike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
       facts["scene"] = ToJson(*scene);
   }
-  finished.facts = facts.dump();
+  if (cancelled()) return std::nullopt;
+  finished.facts = JsonText(facts);
   return finished;
 }
 

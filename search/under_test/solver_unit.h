@@ -20,9 +20,13 @@
 
 namespace stiction {
 
+// Gets what a unit finds when it finds it: the unit may not come to its end.
+using TellFinding = std::function<void(const Finding&)>;
+
 // Half a unit is none: empty if it was cancelled.
-std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
-                                        const std::function<bool()>& cancelled);
+std::optional<UnitResult> RunSolverUnit(
+    const Campaign& campaign, std::int64_t unit, SolverProcess& process, const std::function<bool()>& cancelled,
+    const TellFinding& tell = [](const Finding&) {});
 
 // What the solver did with problem `index` of a unit, not finished yet. `problem`: as a file; `leak`: bytes of
 // a call.

@@ -33,7 +33,7 @@ typedef struct stiction_solver_problem {
  *             "findex"        the same; bounds of tangents are mu times the normal forces that solve the
  * problem of the normals alone, as in ODE "pyramid"       the same; bounds of tangents are mu times the normal
  * forces of f itself "coulomb"       friction at most mu times the normal force, at the limit against the slip
- * accuracy  of what it calls solved, relative to what acts at each row (solver/problem/errors.h) */
+ * accuracy  of what it calls solved: lenient errors up to it are accepted (solver/problem/lenient.h) */
 typedef struct stiction_solver_info {
   int interface;
   const char *name, *version, *law;

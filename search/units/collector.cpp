@@ -14,7 +14,7 @@ namespace stiction {
 
 Collector::Collector(const Campaign& campaign, const Task& task, std::int64_t unit)
     : campaign_(campaign), task_(task), unit_(unit), strata_(campaign.policies.size(), Strata(campaign, task)) {
-  result_.problems = UnitProblems(campaign, task);
+  result_.problems = UnitProblems(campaign, task, unit);
   for (const Policy& policy : campaign.policies) {
     const TallyKey key{std::string(generator().name), task.contacts, PolicyName(policy), "baraff",
                        std::string(Name(campaign.arithmetic))};
@@ -114,8 +114,8 @@ bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.policy = PolicyName(policy);
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
-  finding.problem = ToJson(FileOf(campaign_, unit_, place.index, problem)).dump();
-  if (facts != nullptr) finding.facts = facts->dump();
+  finding.problem = JsonText(ToJson(FileOf(campaign_, unit_, place.index, problem)));
+  if (facts != nullptr) finding.facts = JsonText(*facts);
   result_.candidates.push_back(std::move(finding));
   return true;
 }

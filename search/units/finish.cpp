@@ -180,7 +180,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   const Json grid = GridCounts(small, limits, cancelled);
   if (cancelled()) return;
   const bool whole = IsWhole(grid, outcome);
-  finding.minimized = ToJson(Describe(small, finding, policy, whole, found.has_scene)).dump();
+  finding.minimized = JsonText(ToJson(Describe(small, finding, policy, whole, found.has_scene)));
   if (outcome == Outcome::kCycle) {
     const std::vector<Policy> certified = whole ? PlanarGrid() : std::vector<Policy>{policy};
     finding.minimized_certificate = Checked(CycleCertificate(small, certified, limits), finding.signature);
@@ -228,7 +228,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     what.limits = limits;
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;
-    finished.minimized = ToJson(Describe(small, finding, options.policy, false, false)).dump();
+    finished.minimized = JsonText(ToJson(Describe(small, finding, options.policy, false, false)));
     if (loops) finished.minimized_certificate = LoopInSpaceOf(small, options, finding.signature);
     if (finished.minimized_certificate.empty())
       finished.certificate.clear();  // it would speak of another problem
@@ -236,7 +236,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
     facts["minimized"] =
         FactsInSpace(small, methods.published_in_space(small, options), finished.minimized_existence);
   }
-  finished.facts = facts.dump();
+  finished.facts = JsonText(facts);
   return cancelled() ? std::nullopt : std::optional(finished);
 }
 
@@ -263,7 +263,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
       found.run.verdict.outcome != Outcome::kSolved && finished.kind != kDisagreementOfMethods;
   if (minimize && !cancelled()) MinimizeFound(finished, facts, found, limits, cancelled);
   if (cancelled()) return std::nullopt;
-  finished.facts = facts.dump();
+  finished.facts = JsonText(facts);
   return finished;
 }
 

@@ -11,7 +11,7 @@
 #include "search/generators/generators.h"
 #include "search/lanes/batch.h"
 #include "search/units/examiner.h"
-#include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 #include "solver/problem/reduction.h"
 #include "solver/published/published.ipp"
 #include "solver/published/published_space.h"
@@ -19,7 +19,7 @@
 namespace stiction {
 namespace {
 
-constexpr double kWrongAnswer = 1e-6;  // error (solver/problem/errors.h)
+constexpr double kWrongAnswer = 1e-6;  // lenient error (solver/problem/lenient.h)
 
 // Of a unit: the first problem that is audited, and from there on one in `audit_every`. Where it stands is
 // drawn, so that units smaller than that are audited no more often than large ones.
@@ -49,7 +49,7 @@ template <class Draw, class Attempt>
 void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkMeter& meter, Draw draw,
             Attempt attempt) {
   SampledDraws draws;
-  const std::int64_t problems = UnitProblems(campaign, task);
+  const std::int64_t problems = UnitProblems(campaign, task, unit);
   Audits audits(campaign, unit);
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(
@@ -149,7 +149,7 @@ class PlanarKernel : public Kernel {
   double Error(const Vector& f) {
     if constexpr (Rows == Eigen::Dynamic) {
       const Vector forces = reduction_->Forces(f), a = whole_.A * forces + whole_.b;
-      return MeasureErrors(whole_, FrictionLaw::kCoulomb, forces, a, units_, 0.0).Largest();
+      return MeasureLeniently(whole_, FrictionLaw::kCoulomb, forces, a, units_).error;
     }
     Vector a = problem_.b;
     const int rows = problem_.rows();
@@ -158,14 +158,14 @@ class PlanarKernel : public Kernel {
       for (int j = 0; j < rows; ++j) sum += problem_.A(i, j) * f[j];
       a[i] = sum;
     }
-    return MeasureErrors(problem_, FrictionLaw::kCoulomb, f, a, units_, 0.0).Largest();
+    return MeasureLeniently(problem_, FrictionLaw::kCoulomb, f, a, units_).error;
   }
 
   const UnitSolvers& solvers_;
   std::vector<PublishedAlgorithm<double, Rows>> algorithms_;
   ContactProblem<double> whole_;                // of other kinds, before reduction
   std::optional<Reduction<double>> reduction_;  // likewise
-  Units<double> units_;
+  LenientUnits<double> units_;
 };
 
 // The same under the policy `paper`, many problems at once; what leaves the lanes is run by itself.
@@ -181,7 +181,7 @@ class BatchedKernel final : public PlanarKernel<Rows> {
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
-    const std::int64_t problems = UnitProblems(campaign_, task);
+    const std::int64_t problems = UnitProblems(campaign_, task, unit);
     Audits audits(campaign_, unit);
     for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
       const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
@@ -266,7 +266,8 @@ class SpaceKernel final : public Kernel {
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});
     const auto [wrong, suspected] = Judge(collector, policy, drawn_, verdict, [&] {
-      return BoundErrors(problem_, FrictionLaw::kBaraff, f.cast<long double>()).Largest();
+      const ContactProblem<double>::Vector a = problem_.A * f + problem_.b;
+      return MeasureLeniently(problem_, FrictionLaw::kBaraff, f, a, units_).error;
     });
     if (suspected || audit) examiner.RunOverIntervals(index, policy, verdict, wrong, suspected);
   }
@@ -274,6 +275,7 @@ class SpaceKernel final : public Kernel {
   const Campaign& campaign_;
   const UnitSolvers& solvers_;
   PublishedInSpace<double> algorithm_;
+  LenientUnits<double> units_;
   ContactProblem<double> problem_;
   Drawn drawn_;
 };

@@ -23,7 +23,7 @@ class WorkMeter {
   // From now on time counts as `part`. Returns what it counted as before.
   Part Switch(Part part) {
     const std::int64_t now = Now();
-    elapsed_.*part_ += now - last_;
+    elapsed_.*part_ += std::max<std::int64_t>(0, now - last_);  // a clock may be set back
     last_ = now;
     return std::exchange(part_, part);
   }
@@ -38,7 +38,8 @@ class WorkMeter {
   ProcessorTime Read() {
     Switch(part_);
     const double wall = static_cast<double>(elapsed_.Total());
-    const double scale = wall > 0 ? 1e6 * (ReadSeconds(CLOCK_THREAD_CPUTIME_ID) - processor_start_) / wall : 0;
+    const double processor = std::max(0.0, ReadSeconds(CLOCK_THREAD_CPUTIME_ID) - processor_start_);
+    const double scale = wall > 0 ? 1e6 * processor / wall : 0;
     ProcessorTime time = elapsed_;
     ForEachPart(time, [scale](const char*, const char*, std::int64_t& value) {
       value = static_cast<std::int64_t>(scale * static_cast<double>(value));

@@ -20,6 +20,7 @@
 #include "solver/numeric/body_newton.h"
 #include "solver/numeric/dense_factors.h"
 #include "solver/problem/gate.h"
+#include "solver/problem/lenient.h"
 #include "solver/solve.h"
 
 namespace stiction {
@@ -261,26 +262,11 @@ struct Best {
   bool warm = false;
 };
 
-// Of f with accelerations a, which are off by `rounding` times their sizes; noise counts as none.
-template <class Problem, class AnyVector>
-Errors<double> ErrorsAt(const Problem& problem, const AnyVector& f, AnyVector a, double noise,
-                        typename AnyVector::Scalar rounding) {
-  for (auto& x : a) x = std::abs(x) <= noise ? 0 : x;
-  Units<typename AnyVector::Scalar> units;
-  const auto errors = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, units, rounding);
-  Errors<double> told;
-  told.acceleration = static_cast<double>(errors.acceleration);
-  told.force = static_cast<double>(errors.force);
-  told.contact = errors.contact;
-  return told;
-}
-
-// As the gate bounds them.
+// As the gate bounds them; accelerations of at most `noise` count as none.
 template <class Problem>
-Errors<double> ErrorsOf(const Problem& problem, const Vector& f, double noise) {
-  const LongVector forces = f.cast<long double>();
-  return ErrorsAt(problem, forces, Recompute(problem, forces), noise,
-                  Units<long double>::Rounding(problem.rows()));
+Errors<double> ErrorsOf(const Problem& problem, const Vector& f, const stiction_options& options) {
+  GateMeter<double> meter;
+  return BoundErrors(problem, FrictionLaw::kCoulomb, f, GateOf<double>(options.residual), meter, options.noise);
 }
 
 // Whether f = 0 leaves no normal acceleration that is not allowed.
@@ -300,20 +286,28 @@ class Solving {
   Solving(const Problem& problem, const stiction_options& options) : problem_(problem), options_(options) {
     best_.f.setZero(problem.rows());
     best_.errors.acceleration = std::numeric_limits<double>::infinity();
-    if (NeedsNoForces(problem)) best_.errors = ErrorsOf(problem, best_.f, options.noise);
+    if (NeedsNoForces(problem)) best_.errors = ErrorsOf(problem, best_.f, options);
   }
 
   // The best forces; f = 0 where nothing was found that has errors.
   const Best& Finish() {
-    if (!std::isfinite(best_.errors.Largest())) best_.errors = ErrorsOf(problem_, best_.f, options_.noise);
+    if (!std::isfinite(best_.errors.Largest())) best_.errors = ErrorsOf(problem_, best_.f, options_);
     return best_;
   }
   bool IsSolved() const { return best_.errors.Largest() <= options_.residual; }
 
+  // How far the forces of the call before are off: of all but noise.
+  double LenientErrorOf(const Factored& factors, const Vector& f) const {
+    Vector a = factors.Accelerations(f);
+    for (double& x : a) x = std::abs(x) <= options_.noise ? 0 : x;
+    LenientUnits<double> units;
+    return MeasureLeniently(factors, FrictionLaw::kCoulomb, f, a, units).error;
+  }
+
   // Keeps the better forces.
   void Offer(const Vector& f, std::string_view method, bool warm) {
     if (f.size() != problem_.rows() || !f.allFinite()) return;
-    const Errors<double> errors = ErrorsOf(problem_, f, options_.noise);
+    const Errors<double> errors = ErrorsOf(problem_, f, options_);
     if (errors.Largest() < best_.errors.Largest()) best_ = {f, errors, method.data(), warm};
   }
 
@@ -325,8 +319,7 @@ class Solving {
     options.noise = options_.noise;
     options.points = options_.points;
     if (start != nullptr) {
-      const Vector a = factors.Accelerations(*start);
-      const double error = ErrorsAt(factors, *start, a, options_.noise, 0).Largest();
+      const double error = LenientErrorOf(factors, *start);
       options.warm_eps = std::clamp(kEpsPerError * error, options.warm_eps, kMostEps);
       options.failures = kFailures + problem_.rows() / kRowsPerFailure;
     }
@@ -410,10 +403,12 @@ Dense InNumbers(const Factored& problem) {
 template <class Problem>
 stiction_verdict Told(stiction_context& context, const Best& best, const Problem& problem, const Vector& v,
                       const stiction_options& options, stiction_answer& answer) {
-  const LongVector a = Recompute(problem, best.f.template cast<long double>());
+  GateMeter<double> meter;
+  meter.Accelerate(problem, best.f, Gate{0, 0});
+  const Vector& a = meter.a();
   for (int i = 0; i < problem.rows(); ++i) {
     answer.forces[i] = best.f[i];
-    if (answer.accelerations != nullptr) answer.accelerations[i] = static_cast<double>(a[i]);
+    if (answer.accelerations != nullptr) answer.accelerations[i] = a[i];
   }
   if (answer.body_accelerations != nullptr) std::copy(v.begin(), v.end(), answer.body_accelerations);
   answer.errors = {best.errors.acceleration, best.errors.force, best.errors.contact};

@@ -90,7 +90,7 @@ typedef struct stiction_dense {
 typedef struct stiction_options {
   unsigned size;    // of this structure, as stiction_default_options sets it
   int warm;         // 1: begin with the forces of the call before, contact by contact; 0: with none
-  double residual;  // largest error of what is called solved; 1e-8
+  double residual;  // by how much b and mu may differ for forces called solved to be exact; 1e-8
   double noise;     // accelerations up to it are rounding of b and count as none, in the unit of b; 0
   int points;  // most proximal points that Newton's method tries, warm and cold each; 100. 0: it is left out
   int dense_rows;  // most rows for which methods of a dense A try what Newton's method left undecided; 150

@@ -14,24 +14,34 @@
 namespace stiction {
 
 template <class Scalar>
-FrictionGap<Scalar> GapOfPolygon(const FrictionPolygon<Scalar>& polygon, const FrictionAt<Scalar>& at) {
-  const auto distance = [&](const Planar<Scalar>& x) {  // of fF, from the point of the polygon nearest to x
-    const Planar<Scalar> p = polygon.Project(x, at.limit);
+struct FrictionInPolygon {
+  const std::vector<FrictionPolygon<Scalar>>& polygons;
+
+  Scalar Excess(int i, const FrictionAt<Scalar>& at) const {
+    return InUnits(Distance(i, at, {at.f[0], at.f[1]}), at.limit);
+  }
+  // Where both may move: aF misses as much in its units.
+  SlipMiss<Scalar> Slip(int i, const FrictionAt<Scalar>& at) const {
+    const Scalar unit = std::max(at.unit[0], at.unit[1]);
+    if (!(unit > 0)) return {Excess(i, at), {Scalar(0), Scalar(0)}};
+    const Scalar r = at.limit / unit;
+    const Planar<Scalar> x = {Scalar(at.f[0] - r * at.a[0]), Scalar(at.f[1] - r * at.a[1])};
+    return {InUnits(Distance(i, at, x), at.limit), {Scalar(0), Scalar(0)}};
+  }
+
+ private:
+  // Of fF, from the point of the polygon nearest to x.
+  Scalar Distance(int i, const FrictionAt<Scalar>& at, const Planar<Scalar>& x) const {
+    const Planar<Scalar> p = polygons[i].Project(x, at.limit);
     return Length(Scalar(at.f[0] - p[0]), Scalar(at.f[1] - p[1]));
-  };
-  FrictionGap<Scalar> gap{distance(at.f), Infinity<Scalar>(), Infinity<Scalar>(), Infinity<Scalar>()};
-  if (!(at.r > 0)) return gap;
-  gap.moved_force = distance({Scalar(at.f[0] - at.r * at.a[0]), Scalar(at.f[1] - at.r * at.a[1])});
-  gap.moved_acceleration = gap.moved_force / at.r;
-  return gap;
-}
+  }
+};
 
 template <class Problem, class Scalar, class Vector>
 Errors<Scalar> PolygonErrors(const Problem& problem, const std::vector<FrictionPolygon<Scalar>>& polygons,
-                             const Vector& f, const Vector& a) {
-  Units<Scalar> units;
-  return MeasureErrorsBy(problem, f, a, units, Scalar(0),
-                         [&](int i, const FrictionAt<Scalar>& at) { return GapOfPolygon(polygons[i], at); });
+                             const Vector& f, const Vector& a, const Scalar& theta) {
+  ErrorMeter<Scalar> meter;
+  return meter.Measure(problem, f, a, theta, FrictionInPolygon<Scalar>{polygons});
 }
 
 }  // namespace stiction

@@ -54,6 +54,7 @@
 #define STICTION_SOLVER_LEMKE_LEMKE_H_
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/complete/polygon.h"
@@ -76,6 +77,9 @@ Scalar Grade() {
   const Scalar fifty(static_cast<double>(std::int64_t{1} << 50));
   return fifty * fifty * fifty * fifty;
 }
+
+// Why an answer over inexact scalars is undecided whose path came to its end: f() and a() are where it ended.
+inline constexpr std::string_view kImprecise = "errors of the answer";
 
 struct LemkeOptions {
   Cover cover = Cover::kOnes;

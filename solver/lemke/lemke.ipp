@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/polygon_errors.h"
+#include "solver/complete/polygon.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/check.h"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 
 namespace stiction {
 
@@ -519,13 +519,14 @@ void LemkeAlgorithm<Scalar, Rows>::ComputeRay(int entering) {
   }
 }
 
+// On polygons what is found is where Newton's method begins, whose answer the gate judges.
 template <class Scalar, int Rows>
 Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
-    const Errors<Scalar> errors = polygons_ == nullptr ? MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_)
-                                                       : PolygonErrors(*problem_, *polygons_, f_, a_);
-    if (errors.Largest() > residual_tolerance_) {
-      verdict_.reason = "errors of the answer";
+    if (polygons_ != nullptr) return Outcome::kSolved;
+    LenientUnits<Scalar> units;  // the gate looks more closely, and refines
+    if (!(MeasureLeniently(*problem_, FrictionLaw::kCoulomb, f_, a_, units).error <= residual_tolerance_)) {
+      verdict_.reason = kImprecise;
       return Outcome::kUndecided;
     }
   }

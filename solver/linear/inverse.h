@@ -52,8 +52,8 @@ class Inverse {
       for (int i = 0; i < size; ++i) B_(i, j) = entry(i, j);
     }
     lu_.compute(Block());
-    const auto pivots = lu_.matrixLU().diagonal();
-    if (!(pivots.cwiseAbs().minCoeff() > zero)) {
+    const auto pivots = lu_.matrixLU().diagonal();  // of no rows none is too small
+    if (size > 0 && !(pivots.cwiseAbs().minCoeff() > zero)) {
       size_ = 0;
       return false;
     }

@@ -64,6 +64,7 @@ void SparseLu::ForgetPivots() { factors_->is_chosen = false; }
 
 bool SparseLu::Factor(const Matrix& K) {
   Factors& factors = *factors_;
+  if (K.cols() == 0) return true;  // KLU orders no empty matrix
   if (factors.order == nullptr) return false;
   factors.has_own_pivots = false;
   if (!factors.is_chosen ||
@@ -74,6 +75,7 @@ bool SparseLu::Factor(const Matrix& K) {
 }
 
 auto SparseLu::Solve(const Matrix& K, const Vector& y) -> Vector {
+  if (y.size() == 0) return y;
   Vector x = factors_->Solve(y);
   if (factors_->has_own_pivots) return x;
   if ((y - K * x).cwiseAbs().maxCoeff() <= kSuits * y.cwiseAbs().maxCoeff()) return x;

@@ -19,7 +19,7 @@ void UpdatedSystem<Scalar>::Start(const Problem& problem, int least) {
   valid_ = false;
   pause_ = 0;
   counts_ = {};
-  if (rows < least) return;
+  if (rows == 0 || rows < least) return;
   inverse_.Reserve(rows);
   slots_.clear();
   slot_of_.assign(rows, -1);
@@ -31,7 +31,7 @@ template <class Scalar>
 template <class Unknowns>
 bool UpdatedSystem<Scalar>::Solve(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale,
                                   Vector& df, Vector& da, Load load) {
-  if (problem.rows() < least_) return false;
+  if (problem.rows() == 0 || problem.rows() < least_) return false;
   const std::int64_t inverted = counts_.inverted;
   bool found = Follow(problem, unknowns, scale);
   if (found && !FindDirection(problem, unknowns, load, df, da)) {
@@ -55,7 +55,7 @@ bool UpdatedSystem<Scalar>::Follow(const Problem& problem, const Unknowns& unkno
                                    const Scale<Scalar>& scale) {
   int count = 0;
   for (int row = 0; row < problem.rows(); ++row) count += unknowns.IsUnknown(row);
-  if (count < least_) return false;
+  if (count == 0 || count < least_) return false;
   if (pause_ > 0) {
     --pause_;
     return false;

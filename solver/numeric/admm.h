@@ -197,7 +197,9 @@ class Admm {
   // Keeps the point if it is the best. Where the best gets no better, steps become more cautious.
   void Note() {
     const Vector a = problem_->A * z_ + problem_->b;
-    const Scalar error = MeasureErrors(*problem_, FrictionLaw::kCoulomb, z_, a, units_, Scalar(0)).Largest();
+    const Scalar error = MeasureErrors(*problem_, FrictionLaw::kCoulomb, z_, a, meter_,
+                                       WorkingTheta<Scalar>(options_.residual, problem_->rows()))
+                             .Largest();
     if (error < best_) {
       best_ = error;
       best_f_ = z_;
@@ -246,7 +248,7 @@ class Admm {
   Vector best_f_;
   Scalar best_ = Scalar(0), expected_ = Scalar(0);  // errors: of best_f_; of which half is expected
   std::int64_t hopeful_ = 0;                        // the step at which it was met, or was given up
-  Units<Scalar> units_;
+  ErrorMeter<Scalar> meter_;
   AdmmStatistics statistics_;
 };
 

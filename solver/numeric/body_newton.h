@@ -130,7 +130,7 @@ class BodyNewton {
   bool symmetric_ = true, is_factored_ = false, uses_lu_ = false, lu_knows_ = false;
   Scalar size_ = Scalar(0);  // what R is made of
   Vector best_f_, best_a_;
-  Units<Scalar> units_;
+  ErrorMeter<Scalar> meter_;
 
   Matrix K_;
   Eigen::SimplicialLDLT<Matrix> ldlt_;

@@ -165,7 +165,7 @@ void BodyNewton<Scalar>::TakePattern() {
         slots_.push_back(slot(columns_[piece.column + i], columns_[piece.column + j]));
     }
   }
-  ldlt_.analyzePattern(K_);
+  if (K_.cols() > 0) ldlt_.analyzePattern(K_);  // the orderings of Eigen take no empty matrix
   lu_knows_ = false;
 }
 
@@ -175,7 +175,8 @@ Scalar BodyNewton<Scalar>::Measured() {
   a_ = problem_->A.J() * (problem_->w + problem_->Responses(f_)) + problem_->c;
   told_a_ = a_;
   for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
-  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, units_, Scalar(0));
+  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, meter_,
+                                              WorkingTheta<Scalar>(options_.residual, problem_->rows()));
   return errors.Largest() + std::numeric_limits<Scalar>::epsilon() * errors.amplification;
 }
 
@@ -185,6 +186,7 @@ template <class Scalar>
 bool BodyNewton<Scalar>::Settle() {
   const Scalar rounding = 64 * std::numeric_limits<Scalar>::epsilon(), small(1e-9);
   Evaluate();
+  if (R_.size() == 0) return true;  // there are no velocities: f_ is all that it can be
   Scalar before = std::numeric_limits<Scalar>::infinity();
   for (int step = 0; step <= options_.newton; ++step) {
     const Scalar now = R_.cwiseAbs().maxCoeff();

@@ -36,8 +36,8 @@
 
 #include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"
+#include "solver/problem/errors.h"
 #include "solver/problem/problem.h"
-#include "solver/problem/units.h"
 
 namespace stiction {
 
@@ -108,6 +108,7 @@ class CoulombSolver {
   using Slopes = std::vector<ContactSlope<Scalar>>;
 
   void Start(const Problem& problem);
+  Scalar theta() const { return WorkingTheta<Scalar>(options_.residual, problem_->rows()); }
   bool Reached() const;
   bool Done() const;
   void FromPolygon(int sides);
@@ -139,7 +140,7 @@ class CoulombSolver {
   Matrix regular_;
   Vector f_, a_;
   Vector best_f_, best_a_;
-  Units<Scalar> units_;
+  ErrorMeter<Scalar> meter_;
   Scalar best_ = Scalar(0);
   CoulombStatistics statistics_;
 };

@@ -64,7 +64,7 @@ void CoulombSolver<Scalar, ProblemType>::Start(const Problem& problem) {
   f_ = Vector::Zero(problem.rows());
   best_f_ = f_;
   best_a_ = problem.b;
-  best_ = MeasureErrors(problem, FrictionLaw::kCoulomb, best_f_, best_a_, units_, Scalar(0)).Largest();
+  best_ = MeasureErrors(problem, FrictionLaw::kCoulomb, best_f_, best_a_, meter_, theta()).Largest();
 }
 
 template <class Scalar, class ProblemType>
@@ -162,7 +162,7 @@ auto CoulombSolver<Scalar, ProblemType>::ForceOf(int i) const -> Triple {
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Note() {
   const Vector a = problem_->A * f_ + problem_->b;
-  const Scalar residual = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a, units_, Scalar(0)).Largest();
+  const Scalar residual = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a, meter_, theta()).Largest();
   if (!(residual < best_)) return;
   best_ = residual;
   best_f_ = f_;

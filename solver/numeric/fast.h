@@ -174,7 +174,7 @@ class FastSolver {
   Scalar shift_ = Scalar(0);        // of M's diagonal, relative to A's
   bool symmetric_ = false, dropped_ = false;
   DenseFactor<Scalar> factor_;
-  Units<Scalar> units_;
+  ErrorMeter<Scalar> meter_;
 
   PublishedAlgorithm<Scalar> published_;
   CompleteDriving<Scalar> driving_;

@@ -192,7 +192,8 @@ bool FastSolver<Scalar>::Verify() {
   a_told_ = a_;
   const Scalar noise = Scalar(options_.noise);
   for (Scalar& x : a_told_) x = Abs(x) <= noise ? Scalar(0) : x;
-  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_told_, units_, Scalar(0));
+  const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_told_, meter_,
+                                              WorkingTheta<Scalar>(options_.residual, problem_->rows()));
   return errors.Largest() + spoiled <= std::max(Scalar(options_.residual), least);
 }
 

@@ -39,6 +39,8 @@ ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
       continue;
     }
     f_ = trial_;
+    for (std::size_t i = 0; i < row_of_.size(); ++i)  // no limit holds its rounding
+      if (problem.contacts[i].HasFrictionRows() && problem.contacts[i].mu == 0) f_[row_of_[i] + 1] = Scalar(0);
     a_ = problem.A * f_ + problem.b;
     eps /= 2;
     const Scalar now = Measured();
@@ -105,6 +107,7 @@ bool ProximalNewton<Scalar>::Settle() {
     ListUnknowns();
     if (!SolveCells()) return false;
     trial_a_ = proximal_.A * trial_ + proximal_.b;
+    if (trial_.size() == 0) return true;
     // Forces come to rest: cells of contacts that carry nothing may go on changing with the rounding.
     if ((trial_ - before).cwiseAbs().maxCoeff() <= kSettled * trial_.cwiseAbs().maxCoeff()) return true;
   }

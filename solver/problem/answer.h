@@ -81,7 +81,7 @@ struct Answer {
   std::vector<Pivot<Scalar>> pivots;              // of path methods, where asked for
   std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
   std::optional<Rung> rung;                       // of a filtered run
-  bool moves_elsewhere = false;  // f is at rest where another solution is known that accelerates
+  bool moves_elsewhere = false;                   // another solution is known that accelerates more
 
   bool Solved() const { return outcome == Outcome::kSolved; }
   // The largest error; -1: not measured.

@@ -1,32 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of forces: how far they and their accelerations are from the law of every contact, in the contact's
-// own units (units.h). No tolerance inside.
+// Strict errors of forces: how far b, mu and A must move until the forces are an exact solution.
 //
-// A contact is in one of its modes. The error of a mode is the largest of what its conditions miss, and the
-// error of the contact that of its nearest mode:
+// With a = A f + b, S_i = sum_j abs(A_ij f_j) and a number theta, the unit of row i is
 //
-//   separates   abs(fN), abs(fF);            -aN
-//   sticks      -fN, abs(fF) - mu fN;        abs(aN), abs(aF)
-//   slips       -fN, abs(fF - what the law wants of it);      abs(aN)
+//   s_N = abs(b_N) + theta S_N,      s_T = abs(b_T) + theta S_T   (abs(b_T): of the tangents of a contact
+//   together)
 //
-// So `solved` says that every contact separates, sticks or slips but for so much, and no condition of (15),
-// (16) is missed by more: no sum of small violations passes for a mode. Where slip is slow, what the law wants
-// turns with the smallest change of aF; so a contact also slips if both fF and aF may move by so much that the
-// law holds. What friction misses is measured in
-// units of fF or of mu fN, in whichever it is less; mu is never divided by, and may be infinite. Bilateral:
-// abs(aN). Sliding: the first two lines for the normal alone, and abs(fF + mu slip fN) (24).
+// A contact is in one of its modes:
 //
-// Friction that the law wants of a contact that slips, with the limit mu fN:
+//   separates   f = 0;  aN >= 0
+//   rests       fN >= 0, abs(fF) <= mu fN;  aN = 0, aF = 0
+//   slips       fN >= 0, abs(fF) = mu fN;   aN = 0, aF = -t fF with some t >= 0
 //
-//   plane, Coulomb   -mu fN aF / abs(aF); both moved: the distance d of fF from the nearest point p of the disc
-//                    to fF - r aF, since p is what the law wants of aF - (fF - p) / r, too
-//   (21), (22)       any of length mu fN with fF.aF <= 0; both moved: aF by what it is along fF
-//   polygons         the same d with mu fN times the polygon for the disc (complete/polygon_errors.h)
+// (bilateral: aN = 0; sliding: fF = -mu slip fN (24) and no condition on aF; frictionless: the first two lines
+// for the normal alone; by (21), (22): fF.aF <= 0 in place of aF = -t fF.) What a condition on a row misses is
+// told in units of the row, and what one on abs(fF) misses in units of mu fN: the error is the largest of both.
+// Forces that a mode wants to be zero are taken for zero; what all of them do to a row is added to what the row
+// misses, and is an error of every row.
 //
-// r is the unit of friction over that of aF, so that d is the same error of both.
+// So, with eps = the error and tau = theta eps: **the forces, those taken for zero set to zero, satisfy every
+// condition exactly for some b, mu and A that differ by at most eps abs(b), eps mu and tau abs(A), entry by
+// entry** (for the tangents of a contact eps abs(b_T); for sliding contacts mu slip by eps mu). Proof: W.
+// Oettli and W. Prager, 1964: a row that misses r may be mended by db_i = -x eps abs(b_i), dA_ij = -x tau
+// abs(A_ij) sign f_j, x = r / (eps s_i). certify/exact/neighbour.h makes that problem, and holds the forces
+// against it.
 //
-// Shapes: f, a rows x 1. Accelerations may be off by `rounding` times Units::size; errors are then upper
-// bounds, the rounding of lengths and limits of friction included.
+// Forces that are zero lend nothing to a unit; forces that only press against each other, a jam, lend theta
+// times what they do to a row, as their rounding does. Neither A's symmetry nor its definiteness is needed, and
+// mu is never divided by: it may be infinite. A -> D A D, b -> D b, f -> D^-1 f with a positive factor per
+// contact changes no error. Errors are at most 1 / theta.
+//
+// On polygons (complete/polygon_errors.h) a slip is told by the distance of fF from the point of mu fN times
+// the polygon that is nearest to fF - r aF, in units of mu fN, with r the ratio of mu fN and s_T.
+//
+// Shapes: f, a rows x 1. Rows whose acceleration is known to be off by at most E_i miss that much more.
 
 #ifndef STICTION_SOLVER_PROBLEM_ERRORS_H_
 #define STICTION_SOLVER_PROBLEM_ERRORS_H_
@@ -34,7 +41,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "solver/problem/law.h"
 #include "solver/problem/problem.h"
@@ -43,14 +52,6 @@
 #include "solver/problem/units.h"
 
 namespace stiction {
-
-// What the friction of a contact misses.
-template <class Scalar>
-struct FrictionGap {
-  Scalar excess;    // over what fN allows, where it sticks
-  Scalar distance;  // from what the law wants where it slips; infinite where that is not known
-  Scalar moved_force, moved_acceleration;  // the same where both move; likewise
-};
 
 // Over rationals 2^65536: beyond products of four numbers of any other arithmetic.
 template <class Scalar>
@@ -74,224 +75,382 @@ Scalar InUnits(const Scalar& x, const Scalar& unit) {
   return unit > 0 && x < Infinity<Scalar>() ? Scalar(x / unit) : Infinity<Scalar>();
 }
 
-// mu x, where mu may be infinite: of a force or a unit that is not negative.
+// mu x, where mu may be infinite: 0 of an x that is not positive.
 template <class Scalar>
 Scalar Limit(const Scalar& mu, const Scalar& x) {
   return x > 0 ? Scalar(mu * x) : Scalar(0);
 }
 
+// What is allowed: forces are called solved if their error is at most eps, with theta = tau / eps.
+struct Gate {
+  double eps = 0;  // of b and mu
+  double tau = 0;  // of A, and of the rounding of forces
+
+  double theta() const { return eps > 0 ? tau / eps : 1; }
+};
+
+// Roundings of a force that `tau` is.
+inline constexpr double kRoundings = 8;
+
+// Half a unit in the last place of what is told of forces: those of wide numbers are rounded to doubles.
+template <class Scalar>
+inline constexpr double kTold = 0x1p-53;
+template <>
+inline constexpr double kTold<float> = 0x1p-24;
+
+// Errors up to which forces of a scalar are called a solution, where nobody asks for others. Over float it lies
+// above tau.
+template <class Scalar>
+inline constexpr double kSolvedResidual = 1e-8;
+template <>
+inline constexpr double kSolvedResidual<float> = 1e-5;
+
+// residual: what is asked for; 0: that of the scalar.
+template <class Scalar>
+Gate GateOf(double residual = 0) {
+  const double eps = residual > 0 ? residual : kSolvedResidual<Scalar>;
+  return {eps, std::min(eps, kRoundings * kTold<Scalar>)};
+}
+
+// Where a method looks at its own forces, with accelerations that it has rounded itself: theta with that
+// rounding in tau. What it takes for solved is left to the gate.
+template <class Scalar>
+Scalar WorkingTheta(double residual, int rows) {
+  if constexpr (kIsExact<Scalar>) {
+    return Scalar(GateOf<double>(residual).theta());
+  } else {
+    const Scalar eps(residual > 0 ? residual : kSolvedResidual<Scalar>);
+    const Scalar tau = Scalar(rows + kRoundings) * std::numeric_limits<Scalar>::epsilon();
+    return tau < eps ? Scalar(tau / eps) : Scalar(1);
+  }
+}
+
+// What a contact does: a frictionless, sliding or bilateral one that touches rests.
+enum class Motion : std::uint8_t { kSeparates, kRests, kSlips };
+
 // A contact's friction and its acceleration.
 template <class Scalar>
 struct FrictionAt {
-  Scalar limit;  // mu fN
+  Scalar limit;  // mu fN; may be infinite
   std::array<Scalar, 2> f, a;
-  Scalar error;  // bounds that of a
-  Scalar r;      // unit of f over that of a; 0 where that of a is 0 or that of f infinite
-  bool on_line;  // in the plane, where friction has one component
+  std::array<Scalar, 2> unit;  // of a
+  bool on_line;                // in the plane, where friction has one component
 };
 
-// Of the circle where both move. On a line, as in the plane, that gains nothing.
+// What a slip misses.
 template <class Scalar>
-Scalar MovedDistance(const FrictionAt<Scalar>& at) {
-  if (!(at.r > 0) || (at.f[1] == 0 && at.a[1] == 0)) return Infinity<Scalar>();
-  Scalar x = at.f[0] - at.r * at.a[0], y = at.f[1] - at.r * at.a[1];
-  const Scalar length = Length(x, y);
-  if (length > at.limit) {
-    x *= at.limit / length;
-    y *= at.limit / length;
-  }
-  return Length(Scalar(at.f[0] - x), Scalar(at.f[1] - y)) + at.r * at.error;
-}
-
-// Friction of the circle, or in the plane, which is the same with a second component of zero.
-template <class Scalar>
-FrictionGap<Scalar> GapOfFriction(FrictionLaw law, const FrictionAt<Scalar>& at) {
-  const auto& [limit, f, a, error, r, on_line] = at;
-  const Scalar none = Infinity<Scalar>(), force = Length(f[0], f[1]), speed = Length(a[0], a[1]);
-  FrictionGap<Scalar> gap{std::max(Scalar(0), Scalar(force - limit)), none, none, none};
-  if (!(limit < none)) return gap;
-  const bool coulomb = law == FrictionLaw::kCoulomb;
-  if (coulomb && r > 0) {
-    gap.moved_force = MovedDistance(at);
-    if (gap.moved_force < none) gap.moved_acceleration = gap.moved_force / r;
-  } else if (!coulomb && force > 0) {
-    gap.moved_force = Abs(Scalar(force - limit));
-    gap.moved_acceleration = std::max(Scalar(0), Scalar((f[0] * a[0] + f[1] * a[1]) / force + error));
-  }
-  if (!(speed > error)) return gap;
-  const Scalar turn =
-      on_line ? Scalar(0) : Scalar(2 * error / speed);  // of the direction: of a line it is a sign
-  if (coulomb) {
-    const Scalar x = f[0] + limit * (a[0] / speed), y = f[1] + limit * (a[1] / speed);
-    gap.distance = Length(x, y) + limit * turn;
-    return gap;
-  }
-  const Scalar along = (f[0] * a[0] + f[1] * a[1]) / speed + force * turn;
-  const Scalar across = Abs(Scalar(f[0] * a[1] - f[1] * a[0])) / speed;
-  gap.distance = along <= 0 ? Abs(Scalar(force - limit)) : Length(along, Scalar(across - limit)) + force * turn;
-  return gap;
-}
+struct SlipMiss {
+  Scalar force;             // relative to the limit
+  std::array<Scalar, 2> a;  // what aF must change by
+};
 
 namespace internal {
 
-// What one mode of a contact misses, or the nearest so far.
+// t >= 0 with the least of max_k abs(a_k + t f_k) / unit_k: a corner of one of the four lines, or 0.
 template <class Scalar>
-struct ModeError {
-  Scalar acceleration, force, backward;
-
-  bool IsLess(const ModeError& other) const {
-    return std::max(acceleration, force) < std::max(other.acceleration, other.force);
+Scalar NearestOnRay(const FrictionAt<Scalar>& at) {
+  std::array<Scalar, 2> p, q;
+  int count = 0;
+  for (int k = 0; k < 2; ++k) {
+    if (!(at.unit[k] > 0) || at.f[k] == 0) continue;
+    p[count] = at.a[k] / at.unit[k];
+    q[count] = at.f[k] / at.unit[k];
+    ++count;
   }
-};
-
-// One contact: its values, and its units.
-template <class Scalar>
-class ContactErrors {
- public:
-  template <class Problem, class Vector>
-  ContactErrors(const Problem& problem, const Units<Scalar>& units, const Vector& f, const Vector& a, int i,
-                int row, const Scalar& rounding)
-      : kind_(problem.contacts[i].kind), mu_(problem.contacts[i].mu) {
-    tangents_ = problem.contacts[i].HasFrictionRows() ? problem.dimension - 1 : 0;
-    fN_ = f[row];
-    aN_ = a[row];
-    normal_ = {units.acceleration(row), units.force(row), units.size(row), Scalar(rounding * units.size(row))};
-    for (int k = 0; k < tangents_; ++k) {
-      const int at = row + 1 + k;
-      fF_[k] = f[at];
-      aF_[k] = a[at];
-      slip_[k] = problem.contacts[i].slip[k];
-      friction_.acceleration = std::max(friction_.acceleration, units.acceleration(at));
-      friction_.force = std::max(friction_.force, units.force(at));
-      const Scalar error = rounding * units.size(at);
-      friction_.rounding = k == 0 ? error : Length(friction_.rounding, error);
-      least_size_ = k == 0 ? units.size(at) : std::min(least_size_, units.size(at));
-      at_rest_ = std::max(at_rest_, InUnits(Scalar(Abs(a[at]) + error), units.size(at)));
-    }
-    limit_ = Limit(mu_, std::max(Scalar(0), fN_));
-    friction_unit_ = std::max(friction_.force, Limit(mu_, normal_.force));
-    if (limit_ < Infinity<Scalar>()) of_lengths_ = 2 * rounding * (Length(fF_[0], fF_[1]) + limit_);
-  }
-
-  // gap(FrictionAt): what the friction of a static contact misses.
-  template <class Gap>
-  ModeError<Scalar> Nearest(Gap gap) const {
-    ModeError<Scalar> closed = Closed();
-    if (kind_ == ContactKind::kBilateral) return closed;
-    ModeError<Scalar> open = Open();
-    if (kind_ == ContactKind::kSliding) {
-      const Scalar x = fF_[0] + slip_[0] * Limited(), y = fF_[1] + slip_[1] * Limited();
-      const Scalar missed = InUnits(Scalar(Length(x, y) + of_lengths_), friction_unit_);
-      open.force = std::max(open.force, missed);
-      closed.force = std::max(closed.force, missed);
-    } else if (kind_ == ContactKind::kStatic) {
-      open.force = std::max(open.force, InUnits(Length(fF_[0], fF_[1]), friction_.force));
-      const bool in_units = friction_.acceleration > 0 && friction_unit_ < Infinity<Scalar>();
-      const Scalar r = in_units ? Scalar(friction_unit_ / friction_.acceleration) : Scalar(0);
-      FrictionGap<Scalar> gaps =
-          gap(FrictionAt<Scalar>{limit_, fF_, aF_, friction_.rounding, r, tangents_ == 1});
-      for (Scalar* distance : {&gaps.excess, &gaps.distance, &gaps.moved_force}) *distance += of_lengths_;
-      closed = Closer(Sticks(closed, gaps), Slips(closed, gaps));
-    }
-    return Closer(open, closed);
-  }
-
- private:
-  struct RowUnits {
-    Scalar acceleration = Scalar(0), force = Scalar(0), size = Scalar(0), rounding = Scalar(0);
+  std::array<Scalar, 5> tried = {Scalar(0)};
+  int candidates = 1;
+  const auto add = [&](const Scalar& numerator, const Scalar& denominator) {
+    if (denominator == 0) return;
+    const Scalar t = numerator / denominator;
+    if (t > 0) tried[candidates++] = t;
   };
-
-  static ModeError<Scalar> Closer(const ModeError<Scalar>& x, const ModeError<Scalar>& y) {
-    return y.IsLess(x) ? y : x;
+  for (int k = 0; k < count; ++k) add(Scalar(-p[k]), q[k]);
+  if (count == 2) {
+    add(Scalar(p[1] - p[0]), Scalar(q[0] - q[1]));
+    add(Scalar(-p[1] - p[0]), Scalar(q[0] + q[1]));
   }
-  ModeError<Scalar> OfNormal(const Scalar& acceleration, const Scalar& force) const {
-    return {InUnits(acceleration, normal_.acceleration), InUnits(force, normal_.force),
-            InUnits(acceleration, normal_.size)};
+  const auto miss = [&](const Scalar& t) {
+    Scalar most(0);
+    for (int k = 0; k < count; ++k) most = std::max(most, Scalar(Abs(Scalar(p[k] + t * q[k]))));
+    return most;
+  };
+  Scalar best = tried[0], least = miss(best);
+  for (int c = 1; c < candidates; ++c) {
+    const Scalar now = miss(tried[c]);
+    if (!(now < least)) continue;
+    least = now;
+    best = tried[c];
   }
-  ModeError<Scalar> Open() const {
-    return OfNormal(std::max(Scalar(0), Scalar(normal_.rounding - aN_)), Abs(fN_));
-  }
-  ModeError<Scalar> Closed() const {
-    const bool any = kind_ == ContactKind::kBilateral;
-    return OfNormal(Scalar(Abs(aN_) + normal_.rounding), any ? Scalar(0) : std::max(Scalar(0), Scalar(-fN_)));
-  }
-  ModeError<Scalar> Sticks(ModeError<Scalar> error, const FrictionGap<Scalar>& gap) const {
-    const Scalar speed = Length(aF_[0], aF_[1]) + friction_.rounding;
-    error.acceleration = std::max(error.acceleration, InUnits(speed, friction_.acceleration));
-    error.force = std::max(error.force, InUnits(gap.excess, friction_unit_));
-    error.backward = std::max(error.backward, at_rest_);
-    return error;
-  }
-  ModeError<Scalar> Slips(const ModeError<Scalar>& error, const FrictionGap<Scalar>& gap) const {
-    ModeError<Scalar> slips = error, moved = error;
-    slips.force = std::max(error.force, InUnits(gap.distance, friction_unit_));
-    const Scalar most = std::min(gap.moved_acceleration, Scalar(Length(aF_[0], aF_[1]) + friction_.rounding));
-    moved.force = std::max(error.force, InUnits(gap.moved_force, friction_unit_));
-    moved.acceleration = std::max(error.acceleration, InUnits(gap.moved_acceleration, friction_.acceleration));
-    moved.backward = std::max(error.backward, InUnits(most, least_size_));
-    return Closer(slips, moved);
-  }
-  Scalar Limited() const { return fN_ < 0 ? Scalar(-Limit(mu_, Scalar(-fN_))) : Limit(mu_, fN_); }
-
-  ContactKind kind_;
-  int tangents_ = 0;
-  Scalar mu_, fN_, aN_, limit_, friction_unit_;
-  std::array<Scalar, 2> fF_ = {Scalar(0), Scalar(0)}, aF_ = fF_, slip_ = fF_;
-  RowUnits normal_, friction_;
-  Scalar at_rest_ = Scalar(0);     // of aF, relative to its sizes
-  Scalar least_size_ = Scalar(0);  // of these
-  Scalar of_lengths_ = Scalar(0);  // bounds the rounding of lengths and limits of friction
-};
+  return best;
+}
 
 }  // namespace internal
 
-// gap(contact, FrictionAt) -> FrictionGap. Problem: a ContactProblem, or one with a sparse A. `units` is
-// written: its memory is kept between calls.
-template <class Problem, class Vector, class Gap>
-auto MeasureErrorsBy(const Problem& problem, const Vector& f, const Vector& a,
-                     Units<typename Vector::Scalar>& units, const typename Vector::Scalar& rounding, Gap gap) {
-  using Scalar = typename Vector::Scalar;
-  Errors<Scalar> errors;
-  Scalar zero(0);
-  for (int i = 0; i < problem.rows(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-  if (!(zero == 0)) {
-    errors.is_finite = false;
-    errors.acceleration = errors.force = errors.backward = errors.amplification = Infinity<Scalar>();
-    return errors;
+// Coulomb's law: aF against fF.
+template <class Scalar>
+SlipMiss<Scalar> MissOfSlip(const FrictionAt<Scalar>& at) {
+  SlipMiss<Scalar> miss{InUnits(Scalar(Abs(Scalar(Length(at.f[0], at.f[1]) - at.limit))), at.limit), at.a};
+  if (at.on_line) {
+    if ((at.f[0] > 0 && at.a[0] < 0) || (at.f[0] < 0 && at.a[0] > 0)) miss.a[0] = Scalar(0);
+    return miss;
   }
-  units.Take(problem, f, a);
-  Scalar largest(0);
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-    const internal::ContactErrors<Scalar> contact(problem, units, f, a, i, row, rounding);
-    const auto error = contact.Nearest([&](const FrictionAt<Scalar>& at) { return gap(i, at); });
-    errors.acceleration = std::max(errors.acceleration, error.acceleration);
-    errors.force = std::max(errors.force, error.force);
-    errors.backward = std::max(errors.backward, error.backward);
-    if (errors.Largest() > largest) errors.contact = i;
-    largest = errors.Largest();
-    row += problem.contacts[i].HasFrictionRows() ? problem.dimension : 1;
-  }
-  for (int i = 0; i < problem.rows(); ++i)
-    errors.amplification = std::max(errors.amplification, InUnits(units.size(i), units.acceleration(i)));
-  return errors;
+  const Scalar t = internal::NearestOnRay(at);
+  for (int k = 0; k < 2; ++k) miss.a[k] += t * at.f[k];
+  return miss;
 }
 
-// Errors by the law; in the plane both laws are one.
+// (21), (22): no power. The same share of both units takes away what there is.
+template <class Scalar>
+SlipMiss<Scalar> MissOfFreeSlip(const FrictionAt<Scalar>& at) {
+  const Scalar power = at.f[0] * at.a[0] + at.f[1] * at.a[1];
+  SlipMiss<Scalar> miss{InUnits(Scalar(Abs(Scalar(Length(at.f[0], at.f[1]) - at.limit))), at.limit),
+                        {Scalar(0), Scalar(0)}};
+  if (!(power > 0)) return miss;
+  const Scalar most = Abs(at.f[0]) * at.unit[0] + Abs(at.f[1]) * at.unit[1];
+  if (!(most > 0)) return {miss.force, at.a};
+  for (int k = 0; k < 2; ++k) miss.a[k] = (at.f[k] < 0 ? -power : power) / most * at.unit[k];
+  return miss;
+}
+
+// Friction within the disc of radius mu fN, in the plane the interval.
+template <class Scalar>
+struct FrictionInDisc {
+  bool free;  // by (21), (22)
+
+  Scalar Excess(int, const FrictionAt<Scalar>& at) const {
+    const Scalar force = Length(at.f[0], at.f[1]);
+    return force > at.limit ? InUnits(Scalar(force - at.limit), at.limit) : Scalar(0);
+  }
+  SlipMiss<Scalar> Slip(int, const FrictionAt<Scalar>& at) const {
+    return free ? MissOfFreeSlip(at) : MissOfSlip(at);
+  }
+};
+
+// Measures forces. Memory is kept between calls.
+template <class Scalar>
+class ErrorMeter {
+ public:
+  // friction.Excess(contact, FrictionAt): what fF is beyond the limit, relative to it; friction.Slip(contact,
+  // FrictionAt) -> SlipMiss. Of static contacts with a limit above 0. a: A f + b, off by at most rounding[i]
+  // where that is given. Infinite errors only of numbers that are not finite.
+  template <class Problem, class Vector, class Friction>
+  Errors<Scalar> Measure(const Problem& problem, const Vector& f, const Vector& a, const Scalar& theta,
+                         const Friction& friction, const std::vector<Scalar>* rounding = nullptr) {
+    Errors<Scalar> errors;
+    modes_.assign(problem.contacts.size(), Motion::kRests);
+    size_.assign(problem.rows(), Scalar(0));
+    unit_.assign(problem.rows(), Scalar(0));
+    Scalar zero(0);
+    for (int i = 0; i < problem.rows(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
+    if (!(zero == 0)) {
+      errors.is_finite = false;
+      errors.acceleration = errors.force = errors.backward = errors.amplification = Infinity<Scalar>();
+      return errors;
+    }
+    theta_ = theta;
+    most_ = Scalar(1) / theta;
+    rounding_ = rounding;
+    TakeSizes(problem, f);
+    missed_.assign(problem.rows(), Scalar(0));
+    condition_.assign(problem.rows(), Condition::kNone);
+    of_friction_.assign(problem.contacts.size(), Scalar(0));
+    has_ghosts_ = false;
+    int row = 0;
+    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+      Take(problem, f, a, i, row, friction);
+      row += RowsOf(problem.contacts[i], problem.dimension);
+    }
+    return Told(problem);
+  }
+
+  // Of each contact, by the measure before.
+  const std::vector<Motion>& modes() const { return modes_; }
+  // sum_j abs(A_ij f_j), and the unit of row i.
+  const Scalar& size(int row) const { return size_[row]; }
+  const Scalar& unit(int row) const { return unit_[row]; }
+
+ private:
+  enum class Condition : std::uint8_t { kNone, kZero, kNotNegative };
+
+  template <class Problem, class Vector>
+  void TakeSizes(const Problem& problem, const Vector& f) {
+    ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
+      if (f[j] != 0) size_[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
+    });
+    int row = 0;
+    for (const auto& contact : problem.contacts) {
+      const int count = RowsOf(contact, problem.dimension);
+      const Scalar free = TangentLength(problem.b, row, count);
+      unit_[row] = Abs(Scalar(problem.b[row])) + theta_ * size_[row];
+      for (int k = 1; k < count; ++k) unit_[row + k] = free + theta_ * size_[row + k];
+      row += count;
+    }
+  }
+
+  Scalar Capped(const Scalar& x) const { return std::min(x, most_); }
+  Scalar RoundingOf(int row) const { return rounding_ == nullptr ? Scalar(0) : (*rounding_)[row]; }
+  Scalar RowError(const Scalar& missed, int row) const {
+    return missed > 0 ? Capped(InUnits(missed, unit_[row])) : Scalar(0);
+  }
+
+  // What force j does to the row that notices it most, in units of that row. One that no row notices, as no
+  // force acts there, is a force all the same.
+  template <class Problem, class Vector>
+  Scalar Noticed(const Problem& problem, const Vector& f, int j) const {
+    Scalar most(0);
+    if (f[j] == 0) return most;
+    bool acts = false;
+    ForEachInColumn(problem.A, j, [&](int i, const auto& x) {
+      if (x == 0) return;
+      acts = true;
+      most = std::max(most, RowError(Scalar(Abs(Scalar(Scalar(x) * f[j]))), i));
+    });
+    return acts ? most : most_;
+  }
+
+  // A contact: its mode, and what its rows miss there.
+  template <class Problem, class Vector, class Friction>
+  void Take(const Problem& problem, const Vector& f, const Vector& a, int i, int row,
+            const Friction& friction) {
+    const auto& contact = problem.contacts[i];
+    const int count = RowsOf(contact, problem.dimension);
+    missed_[row] = a[row];
+    condition_[row] = Condition::kZero;
+    if (contact.kind == ContactKind::kBilateral) return;
+    const Scalar touching = RowError(Scalar(Abs(a[row]) + RoundingOf(row)), row);
+    Scalar closed = touching;
+    if (f[row] < 0) closed = std::max(closed, Noticed(problem, f, row));
+    if (contact.HasFrictionRows())
+      closed = std::max(closed, TakeFriction(problem, f, a, i, row, count, friction));
+    if (closed == 0) return;
+    Scalar open = RowError(Scalar(RoundingOf(row) - a[row]), row);
+    // Its own row notices a normal force too: mostly enough to see that the contact touches.
+    if (open < closed && f[row] > 0)
+      open = std::max(open, RowError(Scalar(Abs(Scalar(problem.A.coeff(row, row))) * f[row]), row));
+    for (int k = 0; k < count && open < closed; ++k) open = std::max(open, Noticed(problem, f, row + k));
+    if (open < closed) {
+      modes_[i] = Motion::kSeparates;
+      condition_[row] = Condition::kNotNegative;
+      of_friction_[i] = Scalar(0);
+      for (int k = 0; k < count; ++k) {
+        if (k > 0) condition_[row + k] = Condition::kNone;
+        if (f[row + k] != 0) AddGhost(problem, f, i, row + k);
+      }
+    } else if (f[row] < 0) {
+      AddGhost(problem, f, i, row);
+    }
+  }
+
+  // Of a contact that touches: the error of its friction.
+  template <class Problem, class Vector, class Friction>
+  Scalar TakeFriction(const Problem& problem, const Vector& f, const Vector& a, int i, int row, int count,
+                      const Friction& friction) {
+    const auto& contact = problem.contacts[i];
+    const Scalar limit = Limit(Scalar(contact.mu), Scalar(f[row]));
+    FrictionAt<Scalar> at{
+        limit, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, count == 2};
+    std::array<Scalar, 2> sliding = {Scalar(0), Scalar(0)};
+    for (int k = 0; k + 1 < count; ++k) {
+      at.f[k] = f[row + 1 + k];
+      at.a[k] = a[row + 1 + k];
+      at.unit[k] = unit_[row + 1 + k];
+      if (contact.kind == ContactKind::kSliding) sliding[k] = at.f[k] + Scalar(contact.slip[k]) * limit;
+    }
+    if (contact.kind == ContactKind::kSliding)
+      return of_friction_[i] = Capped(InUnits(Length(sliding[0], sliding[1]), limit));
+    if (limit == 0) {  // no friction: the contact may slip as it likes
+      modes_[i] = Motion::kSlips;
+      return of_friction_[i] = at.f[0] == 0 && at.f[1] == 0 ? Scalar(0) : most_;
+    }
+    const Scalar excess = limit < Infinity<Scalar>() ? Capped(friction.Excess(i, at)) : Scalar(0);
+    Scalar rests = excess;
+    for (int k = 0; k + 1 < count; ++k)
+      rests = std::max(rests, RowError(Scalar(Abs(at.a[k]) + RoundingOf(row + 1 + k)), row + 1 + k));
+    std::array<Scalar, 2> missed = at.a;
+    of_friction_[i] = excess;
+    if (limit < Infinity<Scalar>() && rests > 0) {
+      const SlipMiss<Scalar> miss = friction.Slip(i, at);
+      Scalar slips = Capped(miss.force);
+      for (int k = 0; k + 1 < count; ++k)
+        slips = std::max(slips, RowError(Scalar(Abs(miss.a[k]) + RoundingOf(row + 1 + k)), row + 1 + k));
+      if (slips < rests) {
+        modes_[i] = Motion::kSlips;
+        of_friction_[i] = Capped(miss.force);
+        missed = miss.a;
+        rests = slips;
+      }
+    }
+    for (int k = 0; k + 1 < count; ++k) {
+      missed_[row + 1 + k] = missed[k];
+      condition_[row + 1 + k] = Condition::kZero;
+    }
+    return rests;
+  }
+
+  // Force j of a contact is taken for zero. One that acts on no row is an error of the contact.
+  template <class Problem, class Vector>
+  void AddGhost(const Problem& problem, const Vector& f, int contact, int j) {
+    if (!has_ghosts_) ghosts_.assign(problem.rows(), Scalar(0));
+    has_ghosts_ = true;
+    bool acts = false;
+    ForEachInColumn(problem.A, j, [&](int i, const auto& x) {
+      if (x == 0) return;
+      acts = true;
+      ghosts_[i] += Scalar(Abs(Scalar(Scalar(x) * f[j])));
+    });
+    if (!acts) of_friction_[contact] = most_;
+  }
+
+  template <class Problem>
+  Errors<Scalar> Told(const Problem& problem) {
+    Errors<Scalar> errors;
+    Scalar largest(0);
+    int row = 0;
+    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+      const int end = row + RowsOf(problem.contacts[i], problem.dimension);
+      for (; row < end; ++row) {
+        if (has_ghosts_) unit_[row] = std::max(Scalar(0), Scalar(unit_[row] - theta_ * ghosts_[row]));
+        const Scalar size = size_[row] + Abs(Scalar(problem.b[row]));
+        errors.amplification = std::max(errors.amplification, Capped(InUnits(size, unit_[row])));
+        if (has_ghosts_) errors.acceleration = std::max(errors.acceleration, RowError(ghosts_[row], row));
+        if (condition_[row] == Condition::kNone) continue;
+        Scalar missed = condition_[row] == Condition::kZero ? Scalar(Abs(missed_[row])) : Scalar(-missed_[row]);
+        missed += RoundingOf(row);
+        if (has_ghosts_) missed += ghosts_[row];
+        errors.acceleration = std::max(errors.acceleration, RowError(missed, row));
+        if (missed > 0) errors.backward = std::max(errors.backward, InUnits(missed, size));
+      }
+      errors.force = std::max(errors.force, of_friction_[i]);
+      if (errors.Largest() > largest) errors.contact = i;
+      largest = errors.Largest();
+    }
+    return errors;
+  }
+
+  Scalar theta_ = Scalar(1), most_ = Scalar(1);
+  const std::vector<Scalar>* rounding_ = nullptr;
+  std::vector<Scalar> size_, unit_, missed_, ghosts_;  // by row
+  std::vector<Condition> condition_;                   // by row
+  std::vector<Scalar> of_friction_;                    // by contact
+  std::vector<Motion> modes_;                          // by contact
+  bool has_ghosts_ = false;
+};
+
+// Strict errors by the law; in the plane both laws are one.
 template <class Problem, class Vector>
 auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a,
-                   Units<typename Vector::Scalar>& units, const typename Vector::Scalar& rounding) {
+                   ErrorMeter<typename Vector::Scalar>& meter, const typename Vector::Scalar& theta,
+                   const std::vector<typename Vector::Scalar>* rounding = nullptr) {
   using Scalar = typename Vector::Scalar;
-  const FrictionLaw friction = problem.dimension == 2 ? FrictionLaw::kCoulomb : law;
-  return MeasureErrorsBy(problem, f, a, units, rounding,
-                         [friction](int, const FrictionAt<Scalar>& at) { return GapOfFriction(friction, at); });
+  const bool free = law == FrictionLaw::kBaraff && problem.dimension == 3;
+  return meter.Measure(problem, f, a, theta, FrictionInDisc<Scalar>{free}, rounding);
 }
 
 template <class Problem, class Vector>
 auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a) {
   using Scalar = typename Vector::Scalar;
-  Units<Scalar> units;
-  return MeasureErrors(problem, law, f, a, units, Scalar(0));
+  ErrorMeter<Scalar> meter;
+  return MeasureErrors(problem, law, f, a, meter, WorkingTheta<Scalar>(0, problem.rows()));
 }
 
 }  // namespace stiction

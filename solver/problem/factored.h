@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "solver/problem/problem.h"
+#include "solver/problem/scalar.h"
 
 namespace stiction {
 
@@ -27,9 +28,13 @@ class FactoredMatrix {
 
   FactoredMatrix() = default;
   FactoredMatrix(Rows J, Matrix W) : J_(std::move(J)), W_(std::move(W)), JW_(J_ * W_), columns_(J_) {}
+  // Where blocks of W are too long to be formed over exact numbers, and J W is not: W is zero there.
+  FactoredMatrix(Rows J, Matrix W, const Rows& JW_of_others)
+      : J_(std::move(J)), W_(std::move(W)), JW_(Rows(J_ * W_) + JW_of_others), columns_(J_) {}
 
   const Rows& J() const { return J_; }
   const Matrix& W() const { return W_; }
+  const Rows& JW() const { return JW_; }
 
   Scalar coeff(int i, int j) const { return JW_.row(i).dot(J_.row(j)); }
 
@@ -55,6 +60,14 @@ class FactoredMatrix {
     }
   }
 
+  // visit(i, A_ij) for the rows that share a velocity with row j.
+  template <class Visit>
+  void ForEachInColumn(int j, Visit visit) const {
+    const Eigen::SparseVector<Scalar> column = J_ * Eigen::SparseVector<Scalar>(JW_.row(j).transpose());
+    for (typename Eigen::SparseVector<Scalar>::InnerIterator entry(column); entry; ++entry)
+      visit(static_cast<int>(entry.index()), entry.value());
+  }
+
  private:
   Rows J_;
   Matrix W_;
@@ -65,6 +78,11 @@ class FactoredMatrix {
 template <class Scalar, class Visit>
 void ForEachEntry(const FactoredMatrix<Scalar>& A, Visit visit) {
   A.ForEach(visit);
+}
+
+template <class Scalar, class Visit>
+void ForEachInColumn(const FactoredMatrix<Scalar>& A, int column, Visit visit) {
+  A.ForEachInColumn(column, visit);
 }
 
 template <class Scalar>
@@ -82,7 +100,10 @@ struct FactoredProblem {
   int rows() const { return static_cast<int>(b.size()); }
 
   // W J' f, what the forces change of the bodies' accelerations.
-  Vector Responses(const Vector& f) const { return A.W() * (A.J().transpose() * f); }
+  Vector Responses(const Vector& f) const {
+    if constexpr (kIsExact<Scalar>) return A.JW().transpose() * f;  // W may not be whole
+    return A.W() * (A.J().transpose() * f);
+  }
   // a = A f + b, of the contacts.
   Vector Accelerations(const Vector& f) const { return A.J() * Responses(f) + b; }
 };

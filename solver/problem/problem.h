@@ -67,6 +67,20 @@ struct ContactProblem {
   int rows() const { return static_cast<int>(b.size()); }
 };
 
+// The same problem in other numbers: convert(x) of every number x.
+template <class To, class From, class Convert>
+ContactProblem<To> Converted(const ContactProblem<From>& problem, Convert convert) {
+  ContactProblem<To> result;
+  result.dimension = problem.dimension;
+  for (const Contact<From>& contact : problem.contacts) {
+    result.contacts.push_back(
+        {contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
+  }
+  result.A = problem.A.unaryExpr(convert);
+  result.b = problem.b.unaryExpr(convert);
+  return result;
+}
+
 // Number of rows that the contacts ask for.
 template <class Contacts>
 int RowCount(const Contacts& contacts, int dimension) {

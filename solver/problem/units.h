@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Units: what an acceleration and a force of each row are measured in.
+// Lenient units: what an acceleration and a force of each row are measured in, to accuse another program.
 //
-// With W the work that forces do in the group of contacts that A couples to row i,
+// The strict measure (errors.h) refuses what is not nearly exact. Whoever accuses must be sure, so these units
+// are as large as a reader may wish them. With
 //
-//   acceleration   s_i = abs(b_i) + min(sum_j abs(A_ij) max(abs(f_j), abs(b_j) / A_jj), sqrt(A_ii W))
-//   force          s_i / A_ii, and 0 where A_ii = 0
-//   W = min(f'Af, -b'f + power of sliding friction)
+//   F_j   what force j counts: 0 at a contact without any force, else the largest of abs(f_j), abs(b_j) / A_jj
+//         and, for friction, F of the normal
+//   S_i   sum_j abs(A_ij) F_j
 //
-// What acts at a row is b and A f. The sum bounds abs(A f)_i, and so does the root (Cauchy and Schwarz, A
-// semidefinite). In the sum a force counts at least as what b asks for at its row: else a row where nothing
-// acts but the rounding of forces that are zero would be held to that. Forces that only press against each
-// other, a jam, can be as large as they like; they do no work, so the root keeps them from making a unit large.
-// Of a solution f'a is the power of sliding friction, or at most 0 where nothing slides, so f'Af = f'a - b'f is
-// W; of other forces the smaller of the two does not count the work of their errors. (The absolute values of
-// both are taken: an A that is not semidefinite has units, too.)
+//   acceleration   s_N = abs(b_N) + S_N,   s_T = abs(b_T) + abs(S_T), one for the tangents of a contact
+//   force          phi = s / A_jj of its own row, A_TT the largest of the tangents'; where that is 0, the least
+//                  s_i / abs(A_ij) of its column, the force that no row notices; 0 if the column is empty
+//   friction       phi_T + mu (max(0, f_N) + S_N / A_NN)
 //
-// With a positive factor per contact, A -> D A D, b -> D b, f -> D^-1 f, W stays, and units change as
-// accelerations and forces do. mu is not in them. Groups that are far apart do not see each other.
-//
-// W is a lower bound: its own rounding is taken off. Shapes: rows. Units: m/s^2, N. Memory is kept between
-// calls.
+// So a force that is off by 1e-12 of the largest at its contact misses at most some 1e-12 of its unit. With a
+// positive factor per contact, A -> D A D, b -> D b, f -> D^-1 f, units change as accelerations and forces do.
+// mu is never divided by. Shapes: rows. Units: m/s^2, N. Memory is kept between calls.
 
 #ifndef STICTION_SOLVER_PROBLEM_UNITS_H_
 #define STICTION_SOLVER_PROBLEM_UNITS_H_
@@ -97,91 +93,113 @@ class Groups {
   int groups_ = 0;
 };
 
+// visit(i, A_ij) for the entries of column j.
+template <class Matrix, class Visit>
+void ForEachInColumn(const Eigen::MatrixBase<Matrix>& A, int column, Visit visit) {
+  for (int i = 0; i < A.rows(); ++i) visit(i, A(i, column));
+}
+template <class Scalar, class Visit>
+void ForEachInColumn(const Eigen::SparseMatrix<Scalar>& A, int column, Visit visit) {
+  for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(A, column); entry; ++entry)
+    visit(static_cast<int>(entry.row()), entry.value());
+}
+// Rows of a contact.
 template <class Scalar>
-class Units {
+int RowsOf(const Contact<Scalar>& contact, int dimension) {
+  return contact.HasFrictionRows() ? dimension : 1;
+}
+
+// The length of the tangential rows of a contact: from `row` + 1 on, one or two, or none.
+template <class Values>
+auto TangentLength(const Values& x, int row, int rows) {
+  using Scalar = std::decay_t<decltype(x[0])>;
+  if (rows == 1) return Scalar(0);
+  return rows == 2 ? Scalar(Abs(Scalar(x[row + 1]))) : Scalar(Length(Scalar(x[row + 1]), Scalar(x[row + 2])));
+}
+
+template <class Scalar>
+class LenientUnits {
  public:
-  // Of forces f with accelerations a = A f + b. Scalar: that of f and a; it may be wider than the problem's.
   template <class Problem, class Vector>
-  void Take(const Problem& problem, const Vector& f, const Vector& a) {
-    groups_.Begin(problem);
+  void Take(const Problem& problem, const Vector& f) {
     const int rows = problem.rows();
-    own_.resize(rows);
-    force_.resize(rows);  // for now what counts of each force
-    for (int i = 0; i < rows; ++i) {
-      own_[i] = Abs(Scalar(problem.A.coeff(i, i)));
-      const Scalar asked = own_[i] > 0 ? Scalar(Abs(Scalar(problem.b[i])) / own_[i]) : Scalar(0);
-      force_[i] = std::max(Scalar(Abs(f[i])), asked);
-    }
-    sum_.assign(rows, Scalar(0));
+    Count(problem, f);
     size_.assign(rows, Scalar(0));
     ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
-      groups_.Join(i, j, x);
-      if (!(force_[j] > 0)) return;
-      const Scalar entry = Abs(Scalar(x));
-      sum_[i] += entry * force_[j];
-      if (f[j] != 0) size_[i] += entry * Abs(f[j]);
+      if (counted_[j] > 0) size_[i] += Scalar(Abs(Scalar(x))) * counted_[j];
     });
-    groups_.End();
     acceleration_.resize(rows);
-    TakeWork(problem, f, a);
-    for (int i = 0; i < rows; ++i) {
-      const Scalar free = Abs(Scalar(problem.b[i]));
-      const Scalar bound = Root(Scalar(own_[i] * work_[groups_.OfRow(i)].least));
-      acceleration_[i] = free + std::min(sum_[i], bound);
-      force_[i] = own_[i] > 0 ? Scalar(acceleration_[i] / own_[i]) : Scalar(0);
-      size_[i] += free;
-    }
+    force_.resize(rows);
+    friction_.resize(problem.contacts.size());
+    ForEachContact(problem, [&](int, int row, int count) {
+      acceleration_[row] = Abs(Scalar(problem.b[row])) + size_[row];
+      const Scalar tangents = TangentLength(problem.b, row, count) + TangentLength(size_, row, count);
+      for (int k = 1; k < count; ++k) acceleration_[row + k] = tangents;
+    });
+    ForEachContact(problem, [&](int i, int row, int count) {
+      force_[row] = ForceUnit(problem, row, 1);
+      friction_[i] = Scalar(0);
+      if (count == 1) return;
+      const Scalar tangents = ForceUnit(problem, row + 1, count - 1);
+      for (int k = 1; k < count; ++k) force_[row + k] = tangents;
+      const Scalar mu(problem.contacts[i].mu),
+          noise = own_[row] > 0 ? Scalar(size_[row] / own_[row]) : Scalar(0);
+      const Scalar normal = std::max(Scalar(0), Scalar(f[row])) + noise;
+      friction_[i] = tangents + (normal > 0 ? Scalar(mu * normal) : Scalar(0));
+    });
   }
 
   const Scalar& acceleration(int row) const { return acceleration_[row]; }
   const Scalar& force(int row) const { return force_[row]; }
-  // abs(b_i) + sum_j abs(A_ij f_j): what rounding is relative to.
-  const Scalar& size(int row) const { return size_[row]; }
-  const Groups& groups() const { return groups_; }
-
-  // Relative rounding of an acceleration that is computed in Scalar, in units of size(row); N. J. Higham,
-  // Accuracy and Stability of Numerical Algorithms, 2002, section 3.1.
-  static Scalar Rounding(int rows) {
-    if constexpr (kIsExact<Scalar>) {
-      return Scalar(0);
-    } else {
-      return Scalar(rows + 2) * std::numeric_limits<Scalar>::epsilon() / 2;
-    }
-  }
+  const Scalar& friction(int contact) const { return friction_[contact]; }
 
  private:
-  struct Work {
-    Scalar done = Scalar(0), free = Scalar(0), sliding = Scalar(0);  // f'Af, b'f, power of sliding friction
-    Scalar error = Scalar(0);                                        // of the sums
-    Scalar least = Scalar(0);                                        // W
-  };
-
-  template <class Problem, class Vector>
-  void TakeWork(const Problem& problem, const Vector& f, const Vector& a) {
-    const Scalar unit = 4 * Rounding(problem.rows());
-    work_.assign(problem.contacts.size(), Work{});
-    for (int i = 0; i < problem.rows(); ++i) {
-      if (f[i] == 0) continue;
-      const Scalar b = Scalar(problem.b[i]), power = f[i] * a[i];
-      const int contact = groups_.ContactOf(i);
-      const bool friction = i > 0 && groups_.ContactOf(i - 1) == contact;
-      Work& work = work_[groups_.Of(contact)];
-      work.done += f[i] * (a[i] - b);
-      work.free += f[i] * b;
-      if (friction && problem.contacts[contact].kind == ContactKind::kSliding) work.sliding += power;
-      work.error += unit * Abs(f[i]) * (size_[i] + Abs(b));
-    }
-    for (Work& work : work_) {
-      const Scalar given = Abs(work.free) + std::max(Scalar(0), work.sliding);
-      work.least = std::max(Scalar(0), Scalar(std::min(Abs(work.done), given) - work.error));
+  // visit(contact, its normal row, its number of rows)
+  template <class Problem, class Visit>
+  static void ForEachContact(const Problem& problem, Visit visit) {
+    int row = 0;
+    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+      const int count = RowsOf(problem.contacts[i], problem.dimension);
+      visit(i, row, count);
+      row += count;
     }
   }
 
-  static Scalar Root(const Scalar& x) { return SquareRoot<Scalar>::Of(x); }
+  // F and the diagonal of A.
+  template <class Problem, class Vector>
+  void Count(const Problem& problem, const Vector& f) {
+    counted_.assign(problem.rows(), Scalar(0));
+    own_.resize(problem.rows());
+    for (int i = 0; i < problem.rows(); ++i) own_[i] = Abs(Scalar(problem.A.coeff(i, i)));
+    ForEachContact(problem, [&](int, int row, int count) {
+      bool carries = false;
+      for (int k = row; k < row + count; ++k) carries |= f[k] != 0;
+      for (int k = row; k < row + count && carries; ++k) {
+        counted_[k] = Abs(Scalar(f[k]));
+        if (own_[k] > 0) counted_[k] = std::max(counted_[k], Scalar(Abs(Scalar(problem.b[k])) / own_[k]));
+        counted_[k] = std::max(counted_[k], counted_[row]);
+      }
+    });
+  }
 
-  Groups groups_;
-  std::vector<Work> work_;  // by the first contact of a group
-  std::vector<Scalar> acceleration_, force_, sum_, size_, own_;
+  // Of `count` rows with one unit of acceleration.
+  template <class Problem>
+  Scalar ForceUnit(const Problem& problem, int row, int count) const {
+    Scalar own(0), least(-1);
+    for (int k = row; k < row + count; ++k) own = std::max(own, own_[k]);
+    if (own > 0) return acceleration_[row] / own;
+    for (int k = row; k < row + count; ++k) {
+      ForEachInColumn(problem.A, k, [&](int i, const auto& x) {
+        if (x == 0) return;
+        const Scalar unnoticed = acceleration_[i] / Scalar(Abs(Scalar(x)));
+        if (least < 0 || unnoticed < least) least = unnoticed;
+      });
+    }
+    return std::max(Scalar(0), least);
+  }
+
+  std::vector<Scalar> counted_, own_, size_, acceleration_, force_;  // by row
+  std::vector<Scalar> friction_;                                     // by contact
 };
 
 }  // namespace stiction

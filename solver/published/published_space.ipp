@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "solver/linear/direction.ipp"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 #include "solver/published/published_space.h"
 #include "solver/published/scan.h"
 
@@ -103,7 +103,8 @@ void PublishedInSpace<Scalar>::Finish() {
   if constexpr (!kIsExact<Scalar>) {
     const Vector forces = f(), answer = problem_->A * forces + problem_->b;
     const Scalar most = std::max(Scalar(1e-6), 10000 * std::numeric_limits<Scalar>::epsilon());
-    if (MeasureErrors(*problem_, FrictionLaw::kBaraff, forces, answer).Largest() > most)
+    LenientUnits<Scalar> units;
+    if (MeasureLeniently(*problem_, FrictionLaw::kBaraff, forces, answer, units).error > most)
       return End(Outcome::kUndecided, "rounding: the forces break the conditions");
   }
   End(Outcome::kSolved);

@@ -108,13 +108,18 @@ TEST_CASE("certificate: where no forces are found, the theorem says that there a
   ClaimOptions few;
   few.limits.pivots = 1;
   few.enumeration.programs = 1;
-  const ExactProblem problem = ReferenceProblem();
-  CHECK(ClaimOf(CertifyClaim(problem, "p", "existence", {})) == "solution-exists");
-  const Json exists = CertifyClaim(problem, "p", "existence", few);
+  const ExactProblem problem = ReferenceProblem(), none = NoSolution();  // of which (H) fails
+  CHECK(ClaimOf(CertifyClaim(problem, "p", "existence", {})["certificate"]) == "solution-exists");
+  const Json exists = CertifyClaim(problem, "p", "existence", few)["certificate"];
   REQUIRE(ClaimOf(exists) == "exists");
   CHECK(CheckCertificate(exists, "c.json").accepted);
-  CHECK(CertifyClaim(problem, "p", "solution-exists", few).is_null());
-  CHECK(CertifyClaim(NoSolution(), "p", "existence", few).is_null());  // (H) fails
+  // In place of a certificate which budgets are spent.
+  for (const auto& [asked, claim] : {std::pair(&problem, "solution-exists"), std::pair(&none, "existence")}) {
+    const Json open = CertifyClaim(*asked, "p", claim, few);
+    CHECK(open["state"] == "not decided");
+    CHECK(open["certificate"].is_null());
+    CHECK_THAT(open["reason"].get<std::string>(), Catch::Contains("out of linear programs"));
+  }
 }
 
 TEST_CASE("certificate: what is not so is not certified") {

@@ -500,6 +500,13 @@ for claim in ("psd", "in-range", "h", "exists"):
             other[i][j] = "5/8"
             false_by(f"A_{i}{j} is another", A=other)
         false_by(f"b_{i} is another", b=[x + (k == i) for k, x in enumerate(IN_RANGE)])
+    beside = [[*row, 0] for row in JACOBIAN]
+    true_by("a velocity that no row touches, in a block with one that is touched", IN_RANGE,
+            factors=factors(beside, [2, [[4, 0], [0, 1]]], [*FREE, 9]))
+    false_by("a velocity that no row touches", factors=factors(beside, [*MASSES, 1], [*FREE, 9]))
+    false_by("a velocity of which an entry that is zero is listed",
+             factors={**factors(beside, [*MASSES, 1], [*FREE, 9]), "J": {"size": [2, 3], "entries": [
+                 [0, 0, "1"], [1, 0, "1"], [1, 1, "1"], [0, 2, "0"]]}})
     false_by("a negative mass", A=[["-1/2", "-1/2"], ["-1/2", "-1/4"]], factors=factors(JACOBIAN, [-2, 4], FREE))
     false_by("a block that is not definite", A=[["-1/3", "2/3"], ["2/3", "-1/3"]], b=FREE,
              factors=factors(IDENTITY, [[[1, 2], [2, 1]]], FREE))

@@ -16,10 +16,33 @@ from math import isqrt
 from pathlib import Path
 
 sys.set_int_max_str_digits(0)
-MOST_DIGITS, MOST_ROWS, MOST_CHARACTERS = 20_000_000, 3000, 40_000
-MOST_OPERATIONS, MOST_WORK = 2_000_000, 10**13
+MOST_ROWS, MOST_CHARACTERS = 3000, 40_000
+FREE_WORK, WORK_BY_LENGTH = 6 * 10**12, 250_000
+FREE_DIGITS, DIGITS_BY_LENGTH = 1_000_000, 2
+FREE_CELLS, CELLS_BY_LENGTH = 2_000_000, 5
+SHORT = 10**6
 SECONDS = 8  # of processor time, for a refusal before any work is done; the work would take minutes
 MEGABYTES = 400
+
+
+def length_of(value):
+    """Characters of texts and keys, and 2 for every value."""
+    inner = value if isinstance(value, list) else value.values() if isinstance(value, dict) else ()
+    own = len(value) if isinstance(value, str) else sum(map(len, value)) if isinstance(value, dict) else 0
+    return 2 + own + sum(map(length_of, inner))
+
+
+def length(certificate):
+    return length_of(certificate["problem"]) + length_of(certificate["witness"])
+
+
+def most_work(certificate):
+    return FREE_WORK + WORK_BY_LENGTH * length(certificate)
+
+
+def most_bits(certificate, operations):
+    """That numbers may have which so many operations are made with."""
+    return isqrt(most_work(certificate) // operations - SHORT)
 
 
 def certificate(claim, A, b=None, contacts=None, **witness):
@@ -59,17 +82,34 @@ def many_digits():
 
 def rows():
     for size in (MOST_ROWS, MOST_ROWS + 1):
-        yield certificate("symmetric", {"size": size, "entries": []})
+        yield certificate("symmetric", diagonal(size), b=["0" * 480] * size)
+
+
+def cells():
+    """Rows of which no entry is listed."""
+    size = 1001
+    while (size + 1)**2 <= FREE_CELLS + CELLS_BY_LENGTH * length(certificate("symmetric", {"size": size + 1, "entries": []})):
+        size += 1
+    for n in (size, size + 1):
+        yield certificate("symmetric", {"size": n, "entries": []})
 
 
 def digits():
     """1e9999 has 10,000 digits, zeros have none."""
-    size, long = 50, MOST_DIGITS // 10000 - 1
-    for rest in ("1e8999", "1e9000"):
-        numbers = iter(["1e999"] + ["1e9999"] * long + ["0"] * size**2)
-        yield certificate("not-symmetric", [["0", *(next(numbers) for _ in range(size - 1))] if i == 0 else
-                                            [next(numbers) for _ in range(size)] for i in range(size)],
-                          b=unit(size, value=rest), i=0, j=1)
+    size = 20
+
+    def made(count, rest):
+        numbers = iter(["1e9999"] * count + [f"1e{rest:04}"] + ["0"] * size**2)
+        A = [["0", *(next(numbers) for _ in range(size - 1))] if i == 0 else [next(numbers) for _ in range(size)]
+             for i in range(size)]
+        return certificate("not-symmetric", A, i=0, j=size - 1)
+
+    count = 0
+    while (count + 1) * 10000 + 1001 <= FREE_DIGITS + DIGITS_BY_LENGTH * length(made(count + 1, 1000)):
+        count += 1
+    rest = FREE_DIGITS + DIGITS_BY_LENGTH * length(made(count, 1000)) - count * 10000 - 1
+    for exponent in (rest, rest + 1):
+        yield made(count, exponent)
 
 
 def number_of(bits):
@@ -77,30 +117,42 @@ def number_of(bits):
     return str(2**(bits - 2))
 
 
+def largest(make, fits):
+    """The largest size that fits, and the one above."""
+    size = 1
+    while fits(2 * size, make(2 * size)):
+        size *= 2
+    step = size
+    while step := step // 2:
+        if fits(size + step, make(size + step)):
+            size += step
+    return make(size), make(size + 1)
+
+
 def products():
     """x'Ax: the bits of the longest row, and twice those of x, which are 2; one entry of A."""
     n = 1000
-    most = isqrt(MOST_WORK // n)
-    while n * most**2 + (most - 4) * most // 8 > MOST_WORK:
-        most -= 1
-    for bits in (most - 4, most - 3):
-        A = {"size": n, "entries": [[0, 0, "-" + number_of(bits)]]}
-        yield certificate("not-psd", A, x=unit(n, value="-1"), value="-" + number_of(bits))
 
+    def made(bits):
+        A = {"size": n, "entries": [[0, 0, "-" + number_of(bits + 2)]]}
+        return certificate("not-psd", A, x=unit(n, value="-1"), value="-" + number_of(bits + 2))
 
-def apart(n, bits):
-    """A x = b of rows that A does not couple: each counts alone, b as its row, x, and one entry of A."""
-    value = number_of(bits)
-    return certificate("in-range", diagonal(n), b=[value] * n, x=[value] * n)
+    return largest(made, lambda bits, of: n * (SHORT + (bits + 6)**2) + (bits + 2) * (bits + 6) // 8 <= most_work(of))
 
 
 def groups():
+    """A x = b of rows that A does not couple: each counts alone, b as its row, x, and one entry of A."""
     n = 400
-    most = isqrt(MOST_WORK // n)
-    while n * (most**2 + most // 2 * most // 8) > MOST_WORK:
-        most -= 1
-    for bits in (most // 2, most // 2 + 1):
-        yield apart(n, bits)
+
+    def made(bits):
+        value = number_of(bits + 2)
+        return certificate("in-range", diagonal(n), b=[value] * n, x=[value] * n)
+
+    def fits(bits, of):
+        bits += 2
+        return len(number_of(bits)) <= MOST_CHARACTERS and n * (SHORT + (2 * bits)**2 + bits * 2 * bits // 8) <= most_work(of)
+
+    return largest(made, fits)
 
 
 def denominators():
@@ -111,62 +163,85 @@ def denominators():
 
 
 def long_digits():
-    """As many digits as may be, in numbers of as many as may be."""
-    value = "7" * MOST_CHARACTERS
-    count = MOST_DIGITS // MOST_CHARACTERS
+    """In numbers of as many as may be."""
+    value, count = "7" * MOST_CHARACTERS, 500
     return certificate("symmetric", {"size": count, "entries": [[i, i, value] for i in range(count)]})
+
+
+def elimination(n, times=1):
+    return times * (n**3 + 60 * n**2) // 24
 
 
 def eliminations():
     """A diagonal matrix: each row counts for its number, and for the coefficients of friction, of which there are none: 2."""
     n = 100
-    most = isqrt(MOST_WORK // ((n**3 + 10 * n**2) // 10))
-    for bits in (most - 2 * n, most - 2 * n + 1):
-        values = [number_of(bits // n + (i < bits % n)) for i in range(n)]
+
+    def made(bits):
+        values = [number_of(3 + bits // n + (i < bits % n)) for i in range(n)]
         A = {"size": n, "entries": [[i, i, x] for i, x in enumerate(values)]}
-        yield certificate("psd", A, L=[unit(n, i) for i in range(n)], D=values)
+        return certificate("psd", A, L=[unit(n, i) for i in range(n)], D=values)
+
+    return largest(made, lambda bits, of: bits + 5 * n <= most_bits(of, elimination(n)))
 
 
 def operations():
-    n = 1
-    while (n + 1)**3 + 10 * (n + 1)**2 <= 10 * MOST_OPERATIONS + 9:
-        n += 1
-    for size in (n, n + 1):
-        yield certificate("psd", diagonal(size), L=[unit(size, i) for i in range(size)], D=["1"] * size)
+    """Every row has bits, too: 4, and a bit more for a number that is not 0."""
+    def made(n):
+        return certificate("psd", diagonal(n), L=[unit(n, i) for i in range(n)], D=["1"] * n)
+
+    def fits(n, of):
+        operations = elimination(n)
+        return operations * SHORT <= most_work(of) and 4 * n <= most_bits(of, operations)
+
+    return largest(made, fits)
 
 
 def steps():
     """Runs of one static contact; both are false, and the first is refused for what it says."""
-    most = (240 * MOST_OPERATIONS + 239) // (2**3 + 240 * 2)  # times so many operations of a step
-    for count in (most - 1, most):
+    def made(count):
         run = {"policies": ["paper"], "start": 0, "period": 1, "pivots": [{}] * count, "state": {}}
-        yield certificate("cycle", [["1", "0"], ["0", "1"]], contacts=[{"kind": "static", "mu": "1"}], runs=[run])
+        return certificate("cycle", [["1", "0"], ["0", "1"]], contacts=[{"kind": "static", "mu": "1"}], runs=[run])
+
+    def fits(count, of):
+        operations = (count + 1) * (2**3 // 4 + 3 * 2**2 + 100 * 2 + 5 * 2 + 40)
+        return operations * SHORT <= most_work(of) and 2 * (2 + 2) + 0 <= most_bits(of, operations)
+
+    return largest(made, fits)
 
 
 def words():
     """Runs in space of a static contact, in a box of one coordinate; both false, as those of steps."""
-    most = (240 * MOST_OPERATIONS + 239) // (16 * (3**3 + 240 * 3))
     A = [[str(int(i == j)) for j in range(3)] for i in range(3)]
-    for count in (most - 1, most):
+
+    def made(count):
         false = certificate("endless", A, contacts=[{"kind": "static", "mu": "1"}], policy="paper", kind="box", bits=64,
                             start=1, period=1, word=["N1 N1 C"] * count, charts=[1], centre=["0"], radii=["1"])
         false["problem"]["dimension"] = 3
-        yield false
+        return false
+
+    def fits(count, of):
+        operations = (count + 1) * 2 * (3**3 + 20 * 3**2 + 300 * 3) // 4
+        return operations * SHORT <= most_work(of) and 64 + 2 <= most_bits(of, operations)
+
+    return largest(made, fits)
 
 
 # --- Dearest -------------------------------------------------------------------------
 
 def dense(n):
     """Two eliminations of a dense matrix, of all the bits that they may have."""
-    choose = random.Random(n).getrandbits
-    bits = isqrt(MOST_WORK // (2 * (n**3 + 10 * n**2) // 10)) // (2 * n) - 20
-    A = [[0] * n for _ in range(n)]
-    for i in range(n):
-        for j in range(i):
-            A[i][j] = A[j][i] = choose(bits)
-        A[i][i] = n << bits | choose(bits)
-    return certificate("safe-by-condition", [list(map(str, row)) for row in A], scaling=["1"] * n, least="1",
-                       most=str(n << bits + 2))
+    def made(bits):
+        choose = random.Random(n).getrandbits
+        A = [[0] * n for _ in range(n)]
+        for i in range(n):
+            for j in range(i):
+                A[i][j] = A[j][i] = choose(bits)
+            A[i][i] = n << bits | choose(bits)
+        return certificate("safe-by-condition", [list(map(str, row)) for row in A], scaling=["1"] * n, least="1",
+                           most=str(n << bits + 2))
+
+    below, _ = largest(made, lambda bits, of: 2 * n * (bits + 20) <= most_bits(of, elimination(n, 2)))
+    return below
 
 
 # --- The checkers ------------------------------------------------------------------
@@ -207,7 +282,7 @@ def main(stiction, sources, *options):
         file = Path(folder) / "certificate.json"
         for make in (long_numbers, many_contacts, many_digits):
             check(make.__name__, make(), accepted=False, cheap=True)
-        for make in (rows, digits, products, eliminations, operations):
+        for make in (rows, cells, digits, products, eliminations, operations):
             below, above = make()
             check(make.__name__, below, accepted=True)
             check(make.__name__, above, accepted=False)
@@ -218,8 +293,8 @@ def main(stiction, sources, *options):
                 check(name, value, accepted=accepted)
         for make in (steps, words):
             below, above = make()
-            check(make.__name__, below, accepted=True, says=" operations")
-            check(make.__name__, above, accepted=False, says=" operations")
+            check(make.__name__, below, accepted=True, says="the limit")
+            check(make.__name__, above, accepted=False, says="the limit")
         for n in (10, 40, 100) if dearest else (10,):
             check(f"dense {n}", dense(n), accepted=True)
     for failure in failures:

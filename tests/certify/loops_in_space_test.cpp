@@ -239,6 +239,9 @@ TEST_CASE("rays in space: proved where nothing limits a step, a fault where alte
   other = *ray;
   other.word.push_back("N1 N1 C");
   CHECK(place(other) == "word");
+  ExactProblem large = OfRay();  // in a row of which no sign is asked
+  large.A(5, 0) = Rational(mpz_class(1) << 1000);
+  CHECK(FindRayFault(large, literal, *ray)->expected == "more: numbers of A, b and mu are below 2^(bits / 4)");
   const RayInSpace ended = {384, {}};
   CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word[3]");
   CHECK(FindRayFault(OfStates(), literal, ended)->place == "word");

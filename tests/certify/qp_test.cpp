@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "certify/exact/exact.h"
-#include "certify/exact/judge.h"
+#include "certify/exact/neighbour.h"
 #include "certify/exact/qp_ipopt.h"
 #include "certify/exact/verify_solution.h"
 #include "tests/methods.h"
@@ -112,7 +112,7 @@ TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure conc
     const Answer<double> run = SolveQpByIpopt(problem, ipopt);
     REQUIRE(run.f.size() == problem.rows());
     const ExactVector f = run.f.unaryExpr([](double x) { return Rational(x); });
-    if (FindMiss(problem, f, FrictionLaw::kCoulomb, Rational(1, 1000000))) continue;
+    if (FindMiss(problem, f, FrictionLaw::kCoulomb, GateOf<double>(1e-6))) continue;
     ++solved;
     if (!definite) continue;
     const ExactAnswer exact = SolveQp(problem);

@@ -37,12 +37,13 @@ class Certificates(cli.TestCase):
             with self.subTest(problem=problem["name"], claim=claim):
                 file, out = self.file("p.json", problem), self.folder / "c.json"
                 done = self.succeeds("certify", file, "-o", out, "--claim", claim, "--json").json()
-                self.assertEqual(done["claim"], certified)
+                state = "proved" if claim == certified else "disproved"
+                self.assertEqual((done["asked"], done["claim"], done["state"]), (claim, certified, state))
                 self.assertEqual(json.loads(out.read_text())["claim"], certified)
                 self.assertEqual(self.check(out, accepted=True)["claim"], certified)
                 text = self.succeeds("certify", file, "-o", out, "--claim", claim).out
-                says = {"solution-exists": "forces that meet all conditions", "exists": "by the theorem"}.get(certified)
-                self.assertRegex(text, f"^{out}: {certified}: .*{says}" if says else f"^{out}: {certified}\n$")
+                named = "proved: " if claim == certified else f"disproved, {certified}: "
+                self.assertRegex(text, f"^{out}: {claim}: {named}[^ ].*\n$")
                 self.assertIn(f"{out}: accepted: {certified}", self.succeeds("check", out).out)
 
     def test_existence_without_forces(self):
@@ -50,8 +51,12 @@ class Certificates(cli.TestCase):
         outside = self.file("p.json", {**cli.SOLVED, "A": [["1", "1"], ["1", "1"]]})
         indefinite = self.file("q.json", {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]})
         for file in (outside, indefinite):
-            done = self.succeeds("certify", file, "-o", out, "--claim", "exists", code=3)
-            self.assertRegex(done.out, "undecided: .*--claim psd.*--claim h")
+            done = self.succeeds("certify", file, "-o", out, "--claim", "exists")
+            self.assertRegex(done.out, f"^{out}: exists: disproved, no-solution: ")
+            out.unlink()
+        open_one = cli.ROOT / "tests/problems/rota.json"
+        done = self.succeeds("certify", open_one, "-o", out, "--claim", "exists", code=3)
+        self.assertRegex(done.out + done.err, "exists: not decided: ")
         asymmetric = self.file("r.json", {**cli.SOLVED, "A": [["2", "1"], ["0", "3"]]})
         sliding = cli.ROOT / "corpus/sliding/rod-without-solution.json"
         for file, says in [(asymmetric, "A[0][1]"), (sliding, "contacts[0].kind: found sliding")]:
@@ -61,18 +66,33 @@ class Certificates(cli.TestCase):
     def test_no_claim_is_made_without_a_witness(self):
         out = self.folder / "c.json"
         for problem, claim in [(cli.SOLVED, "cycle"), (cli.SOLVED, "counterexample")]:
-            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, code=3)
-            self.assertIn("undecided", done.out)
-            done = self.succeeds("certify", self.file("p.json", problem), "-o", out, "--claim", claim, "--json", code=3)
-            self.assertEqual(done.json()["claim"], "undecided")
+            file = self.file("p.json", problem)
+            done = self.succeeds("certify", file, "-o", out, "--claim", claim, code=1)
+            self.assertRegex(done.out, f"^{claim}: disproved: under paper the published algorithm ends in solved after")
+            self.assertIn(f"stiction replay {file}", done.out)
+            done = self.succeeds("certify", file, "-o", out, "--claim", claim, "--json", code=1).json()
+            self.assertEqual((done["asked"], done["state"], done["claim"]), (claim, "disproved", None))
             self.assertFalse(out.exists())
 
     def test_a_cycle_under_all_policies_that_show_it(self):
         out = self.folder / "c.json"
         file = self.file("p.json", cli.REFERENCE)
-        self.succeeds("certify", file, "-o", out, "--claim", "cycle", "--policy", "*")
-        cycles = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]["cycle"]
-        self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
+        counts = self.succeeds("replay", file, "--all-policies", "--json", code=1).json()["counts"]
+        cycles, grid = counts["cycle"], sum(counts.values())
+        for claim in ("cycle", "counterexample"):
+            words = ("certify", file, "-o", out, "--claim", claim, "--policy", "*")
+            said = self.succeeds(*words, code=1).out  # it does not hold of all
+            self.assertIn(f"{claim}: disproved: {cycles:,} of {grid:,} policies loop; {grid - cycles} end in solved", said)
+            self.assertEqual(self.succeeds("check", out, "--json").json()[0]["facts"]["policies"], cycles)
+            done = self.succeeds(*words, "--json", code=1).json()
+            self.assertEqual((done["state"], done["claim"]), ("disproved", claim))
+            example = done["policies"].pop("example")
+            self.assertEqual(done["policies"], {"asked": grid, "so": cycles, "certified": cycles,
+                                                "otherwise": {"solved": grid - cycles}})
+            self.assertEqual(self.succeeds("replay", file, "--policy", example, "--json").json()["outcome"], "solved")
+        whole = cli.ROOT / "corpus/cycle-every-policy-mu-1.json"
+        said = self.succeeds("certify", whole, "-o", out, "--claim", "cycle", "--policy", "*").out
+        self.assertIn(f"cycle: proved: all {grid:,} policies loop", said)
 
     def test_the_counterexample_of_the_corpus(self):
         file, problem = cli.ROOT / "corpus/certificates/counterexample.json", cli.ROOT / "corpus/cycle-every-policy-mu-1.json"

@@ -131,8 +131,10 @@ class Assembled(Case):
                 self.assertEqual((answer["outcome"], answer["method"]), ("solved", "newton-bodies"))
                 self.assertLessEqual(answer["residual"], 1e-8)
                 self.assertEqual(answer["assumptions"], [])
-                other = self.succeeds("solve", dense, "--json").json()
-                self.assertEqual(other["outcome"], "solved")
+                # Rounded, A is not semidefinite, and a hundred contacts touch without a force.
+                other = cli.run("solve", dense, "--json").json()
+                self.assertIn(other["outcome"], ("solved", "undecided"))
+                self.assertLess(other["backward_error"], 1e-12)
 
 
 class Large(Case):
@@ -154,12 +156,14 @@ class Large(Case):
 
     def test_the_best_forces_are_told_with_their_errors_when_the_time_is_up(self):
         file = self.file("wall.json", wall(40, 40, mu="1/10"))
-        done = cli.run("solve", file, "--json", "--seconds", 0.001, "--residual", 1e-12)
+        done = cli.run("solve", file, "--json", "--seconds", 0.4, "--residual", 1e-12)
         answer = done.json()
         if answer["outcome"] == "solved":  # a quick machine
             self.assertLessEqual(answer["residual"], 1e-12)
             return
-        self.assertEqual((done.code, answer["outcome"], answer["reason"]), (3, "undecided", "stopped"))
+        self.assertEqual((done.code, answer["outcome"], answer["reason"][:7]), (3, "undecided", "stopped"))
+        if answer["reason"] == "stopped while the file was read":  # a slow one
+            return
         self.assertEqual(len(answer["f"]), 6400)
         self.assertGreater(answer["residual"], 1e-12)
 
@@ -204,6 +208,18 @@ class Certified(Case):
                 written = json.loads(certificate.read_text())
                 self.assertEqual((written["claim"], list(written["witness"])), (claim, ["factors"]))
                 self.succeeds("check", certificate, "--problem", factored)
+
+    def test_velocities_that_no_row_touches_are_left_out(self):
+        J = [[*row[:2], 0, *row[2:], 0] for row in FACTORS["J"]]
+        M, w = [*FACTORS["M"][:2], 7, FACTORS["M"][2], "1/3"], [*FACTORS["w"][:2], 5, *FACTORS["w"][2:], 6]
+        beside = self.file("beside.json", {**STACK, "factors": {"J": J, "M": M, "w": w}})
+        certificate = self.folder / "certificate.json"
+        for claim in ("psd", "in-range", "h", "exists"):
+            with self.subTest(claim=claim):
+                self.succeeds("certify", beside, "-o", certificate, "--claim", claim)
+                written = json.loads(certificate.read_text())["witness"]["factors"]
+                self.assertEqual((written["J"]["size"], written["w"]), ([4, 4], ["0", "-981/100", "1", "-981/100"]))
+                self.succeeds("check", certificate, "--problem", beside)
 
     def test_c_outside_of_the_dual_cone_is_decided_otherwise(self):
         for c, claim, keys in ((["1", "0", "0", "0"], "h", ["factors"]), (["0", "1", "0", "0"], "h", ["y"])):

@@ -66,7 +66,7 @@ class Formats(cli.TestCase):
         self.refuses("export", problem, "-o", out, "--format", "siconos-fc", says=["b[0]", "-1/3", "--round"])
         self.assertFalse(out.exists())
         done = self.succeeds("export", problem, "-o", out, "--format", "siconos-fc", "--round")
-        self.assertIn("1 numbers rounded", done.out)
+        self.assertIn("1 number rounded", done.out)
 
     def test_bad_files_and_wrong_formats_are_refused_with_their_place(self):
         out = self.folder / "out.json"
@@ -111,10 +111,16 @@ class Formats(cli.TestCase):
         done = self.succeeds("solve", self.folder / "problem.json", "--method", "complete", "--json").json()
         self.assertEqual(done["f"], ["-21/11", "29/11"])
 
-    def test_numbers_behind_the_last_one_are_refused_and_a_flag_or_text_is_not(self):
+    def test_what_stands_behind_the_last_number_is_refused_but_for_a_flag_and_a_remark(self):
         problem = self.imported(LCP)
-        for rest in ("0\n", "1\n", "\nExample 3, Rome 1994\n", "1 # 4 5 6\n"):
+        for rest in ("0\n", "1\n"):
             self.assertEqual(self.imported(LCP + rest), problem)
+        remarked = self.imported(LCP + "\nExample 3, Rome 1994\n")
+        self.assertEqual(remarked["origin"].pop("remark"), "Example 3, Rome 1994")
+        self.assertEqual(remarked, problem)
+        for rest in ("garbage\n", "1 # 4 5 6\n", "0\n# a remark without an empty line above\n"):
+            file = self.file("more.dat", LCP + rest)
+            self.refuses("import", file, "-o", self.folder / "out.json", says="found text, from '")
         file = self.file("more.dat", LCP + "\n3 4 # remark\n")
         self.refuses("import", file, "-o", self.folder / "out.json",
                      says=f"{file}: line 6: found 2 numbers more, from '3' on, expected the end of the file")

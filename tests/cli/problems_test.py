@@ -50,8 +50,8 @@ class Problems(cli.TestCase):
                 with self.subTest(name=name, method=method, arithmetic=arithmetic or "usual"):
                     yield problem, answer, f, accelerations(problem, f)
 
-    def default(self, name, *options, code=0):
-        return self.succeeds("solve", PROBLEMS / f"{name}.json", "--json", *options, code=code).json()
+    def default(self, name, *options, code=0, **limits):
+        return self.succeeds("solve", PROBLEMS / f"{name}.json", "--json", *options, code=code, **limits).json()
 
     # ---- Free fall -------------------------------------------------------------------------------------------
 
@@ -129,6 +129,58 @@ class Problems(cli.TestCase):
             done = self.succeeds("solve", scripted, "--json", "--arithmetic", arithmetic, code=1)
             self.assertEqual(done.json()["outcome"], "no-solution")
 
+    # ---- What a verdict is about -----------------------------------------------------------------------------
+
+    def answers(self, name, *options):
+        """By method and arithmetic, what is answered, with its exit code; refusals left out."""
+        for method in ("auto", "fast", "complete", "lemke", "enumerate", "qp", "baraff"):
+            for arithmetic in (*FLOATING, ""):
+                words = ["--arithmetic", arithmetic] if arithmetic else []
+                done = cli.run("solve", PROBLEMS / f"{name}.json", "--json", "--method", method, *words, *options)
+                if done.code != 2:
+                    self.assertIn(done.code, (0, 1, 3), done.err)
+                    with self.subTest(name=name, method=method, arithmetic=arithmetic or "usual"):
+                        yield done.json()
+
+    def test_no_rounded_problem_proves_that_the_file_has_no_solution(self):
+        for name in ("enumerate-double-no-solution", "false-no-solution", "float-exactly-false"):
+            outcomes = [answer["outcome"] for answer in self.answers(name)]
+            self.assertNotIn("no-solution", outcomes, name)
+            self.assertIn("solved", outcomes, name)
+
+    def test_exact_is_said_of_the_numbers_of_the_file_alone(self):
+        for name in ("exact-answer-of-rounded", "exact-answer-of-rounded-lemke", "float-exactly-false"):
+            problem = problem_of(name)
+            for answer in self.answers(name):
+                if answer["arithmetic"] != "exact" or answer["outcome"] != "solved":
+                    continue
+                f = [Fraction(x) for x in answer["f"]]
+                self.assertEqual([Fraction(x) for x in answer["a"]], accelerations(problem, f))
+
+    def test_a_contact_that_sinks_is_not_solved_and_the_right_force_is_found(self):
+        found = [f for _, _, f, _ in self.solutions("shadow-three-contacts", ("auto", "fast", "complete", "lemke", "baraff"))]
+        self.assertGreater(len(found), 15)
+        for f in found:
+            self.assertAlmostEqual(float(f[0]), 2.292513301700395e-05, delta=1e-10)
+
+    def test_forces_that_do_no_work_are_solved_over_doubles_too(self):
+        answer = self.default("zero-work-unit-inf", "--arithmetic", "double")
+        self.assertEqual(answer["outcome"], "solved")
+        self.assertEqual([round(x, 9) for x in answer["f"]], [0.33, 0, 0.033])
+        for verb in ("explain", "survey"):
+            self.succeeds(verb, PROBLEMS / "zero-work-unit-inf.json", "--json")
+
+    def test_a_quadratic_program_asks_whether_the_file_is_convex(self):
+        for arithmetic in ("float", "double", "exact"):
+            self.assertEqual(self.default("qp-float-psd-refused", "--method", "qp", "--arithmetic", arithmetic)["outcome"],
+                             "solved")
+        answer = self.default("qp-double-space", "--method", "qp", "--arithmetic", "double")
+        self.assertEqual((answer["outcome"], [round(x, 6) for x in answer["f"]]), ("solved", [0.5, 0]))
+
+    def test_the_law_of_the_paper_is_not_answered_by_another_in_silence(self):
+        self.refuses("solve", PROBLEMS / "mujoco3328-pinch-12N.json", "--law", "baraff", "--method", "complete", "--arithmetic",
+                     "double", says=["--law baraff", "--arithmetic exact"])
+
     # ---- Not unique, not in range ----------------------------------------------------------------------------
 
     def test_of_two_solutions_the_one_at_rest_is_told(self):
@@ -139,6 +191,30 @@ class Problems(cli.TestCase):
         self.assertEqual((f[0] + f[3], f[6] + f[9]), (12, 12))
         self.assertEqual(sum(f[k] for k in (2, 5, 8, 11)), Fraction("0.44145"))
         self.assertNotIn("unique_accelerations", self.default("bullet2590-push-37"))
+
+    def test_programs_whose_equations_are_singular_by_themselves(self):
+        for arithmetic in ("exact", "double"):
+            self.assertEqual(self.default("lp-4-8", "--arithmetic", arithmetic)["outcome"], "solved")
+        # N bridges of diodes beside one resistor: v = 7 / (1.01 + 8 N / 500).
+        f = [Fraction(x) for x in self.default("bridges-4", "--arithmetic", "exact", timeout=300)["f"]]
+        self.assertEqual(f[0], 7 / (Fraction("1.01") + Fraction(8 * 4, 500)))
+
+    def test_of_two_slips_the_one_that_moves_less_is_told(self):
+        answer = self.default("grip-mu-0.03")
+        self.assertIs(answer["unique_accelerations"], False)
+        problem, a = problem_of("grip-mu-0.03"), [float(Fraction(x)) for x in answer["a"]]
+        f = [float(Fraction(x)) for x in answer["f"]]
+        for n in rows_of(problem):
+            self.assertAlmostEqual(f[n], 3.75, 6)
+            self.assertAlmostEqual(f[n + 2], 0.1125, 6)
+            self.assertAlmostEqual(a[n + 1], 0, 6)
+            self.assertAlmostEqual(a[n + 2], -0.81, 6)
+
+    def test_other_axes_change_no_verdict(self):
+        for words in (["solve", "-j"], ["solve", "-j", "-m", "complete"], ["certify", "-o", self.folder / "c.json", "--json"]):
+            told = [cli.run(words[0], PROBLEMS / f"{name}.json", *words[1:]).json() for name in ("rota", "rotb")]
+            for key in ("outcome", "state", "claim"):
+                self.assertEqual(told[0].get(key), told[1].get(key), words)
 
     def test_a_row_of_zeros_has_a_solution_or_a_proof_that_there_is_none(self):
         self.assertEqual(self.default("dart892-dead-normal")["outcome"], "solved")

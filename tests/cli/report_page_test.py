@@ -25,7 +25,7 @@ import cli
 from viewer_test import Packages
 
 POLICIES = ("paper", "ties=contacts")
-CAMPAIGN = ("--seed", 3, "--generator", "integers", "scenes", "conditioned", "--contacts", 2, 3, "--mu", "1/2", "1",
+CAMPAIGN = ("--seed", 6, "--generator", "integers", "scenes", "conditioned", "--contacts", 2, 3, "--mu", "1/2", "1",
             "2", "--policy", *POLICIES, "--audit-every", 500)
 OUTCOMES = ("solved", "cycle", "stall", "ray", "singular", "limit", "undecided")
 MANY = 10000
@@ -139,7 +139,7 @@ class Page(cli.TestCase):
         tallies, _ = cli.total(self.store)
         loops = sum(sum(exact_outcomes(tally)[1:3]) for tally in tallies.values())
         runs = sum(tally["problems"] for tally in tallies.values())
-        self.assertIn(f"{loops:,} of {runs:,} runs repeat a state, in exact arithmetic", self.page)
+        self.assertIn(f"{loops:,} of {runs:,} runs go on for ever", self.page)
 
     def test_every_finding_of_the_table_is_in_the_data(self):
         rows = {row["signature"]: row for row in tables(self.report / "findings.csv") if row["state"] != "counted"}

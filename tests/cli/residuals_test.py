@@ -25,6 +25,7 @@ PUBLISHED = ("lcp/lcp_CPS_3.dat", "lcp/lcp_deudeu.dat", "friction/FrictionContac
              "friction/fc2d_granularflowonwall_00667_00000.dat")
 GLOBAL = ("fclib/CubeH8.hdf5", "fclib/LMGC_GlobalFrictionContactProblem00046.hdf5")
 NEAR = 3e-14  # what rounding is worth, of two ways to sum
+SUMMED = 1e-9  # the answer counts the rounding of rows that it sums in doubles: a sixteenth of what they may miss
 
 
 class Residuals(cli.TestCase):
@@ -40,7 +41,8 @@ class Residuals(cli.TestCase):
         answer = self.succeeds("solve", problem, "--arithmetic", "double", "--json").json()
         found, said, code = self.judged(problem, answer)
         self.assertEqual(code, 0)
-        self.assertAlmostEqual(found, said, delta=NEAR + 0.01 * said)
+        self.assertLessEqual(found, said + NEAR + 0.01 * said)
+        self.assertLessEqual(said - found, SUMMED + 0.01 * said)
         return answer
 
     def test_of_the_corpus_in_every_form(self):

@@ -206,7 +206,7 @@ class Reports(Background):
     def setUp(self):
         super().setUp()
         self.store = self.folder / "a.store"
-        self.succeeds("search", *SMALL, "--problems", 4000, "--finishing", 0, "--store", self.store)
+        self.succeeds("search", *SMALL, "--problems", 60000, "--finishing", 0, "--store", self.store)
 
     def shown(self, *arguments):
         mine, its = self.open_terminal()

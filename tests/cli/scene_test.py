@@ -197,10 +197,10 @@ class Scenes(cli.TestCase):
 
     def test_a_problem_of_the_search_carries_its_scene(self):
         store, file = self.folder / "s.store", self.folder / "p.json"
-        self.succeeds("search", "--generator", "scenes", "--contacts", 3, "--mu", "1/2", "--problems", 1,
+        self.succeeds("search", "--generator", "scenes", "--contacts", 3, "--mu", "1/2", "--problems", 40,
                       "--store", store)
-        for index in (0, 17):
-            self.succeeds("problem", store, 0, index, "-o", file)
+        for unit, index in ((0, 0), (5, 17)):
+            self.succeeds("problem", store, unit, index, "-o", file)
             self.succeeds("assemble", file, "--full", "-o", self.folder / "again.json")
             found, again = (json.loads(path.read_text()) for path in (file, self.folder / "again.json"))
             for key in ("contacts", "A", "b"):

@@ -15,7 +15,7 @@ import cli
 
 PROBLEMS = 190000  # 1036 units: one block and some
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 220, "enumerate_every": 3}
+            "contacts": [2, 3], "first_unit_problems": 220, "unit_problems": 220, "enumerate_every": 3}
 
 
 class Search(cli.TestCase):
@@ -155,6 +155,93 @@ class Search(cli.TestCase):
         for wrong in (self.folder / "none.store", self.file("text", "no store " * 99), self.folder):
             self.refuses("merge", self.folder / "new.store", wrong, says=wrong)
             self.assertFalse((self.folder / "new.store").exists())
+
+    # ---- Families ----
+
+    FAMILIES = ("-g", "integers", "bodies", "scenes", "psd", "-c", 2, 3, 4)
+
+    def test_any_budget_tries_all_families(self):
+        for problems, most in ((12, 1), (20000, 20)):
+            store = self.folder / f"{problems}.store"
+            done = self.succeeds("search", *self.FAMILIES, "--problems", problems, "--finishing", 0, "--store", store)
+            tallies, _ = cli.total(store)
+            counts = {(key[0], key[1]): tally["problems"] for key, tally in tallies.items()}
+            self.assertEqual(len(counts), 12)
+            self.assertLessEqual(max(counts.values()), most * min(counts.values()))
+            self.assertNotIn("not reached", done.out)
+            self.assertEqual(self.succeeds("status", store, "--json").json()["families"],
+                             {"tried": 12, "of": 12, "not_reached": []})
+
+    def test_families_that_were_not_reached_are_named(self):
+        store = self.folder / "a.store"
+        done = self.succeeds("search", *self.FAMILIES, "--problems", 2, "--store", store)
+        for text in (done.out, self.succeeds("status", store).out):
+            self.assertIn("2 of 12 families tried (generator, numbers of contacts): integers 2, bodies 2; not reached: "
+                          "integers 3 4, bodies 3 4, scenes 2 3 4, psd 2 3 4.", cli.unwrapped(text))
+        told = self.succeeds("status", store, "--json").json()["families"]
+        self.assertEqual((told["tried"], told["of"], len(told["not_reached"])), (2, 12, 10))
+        self.assertIn("scenes 3", told["not_reached"])
+
+    def test_an_older_store_goes_on_with_units_that_are_all_alike(self):
+        old = self.folder / "old.store"
+        options = ("-g", "psd", "-c", 2, "--finishing", 0, "--store", old)
+        self.succeeds("search", *options, "--problems", 1)
+        definition = json.loads(dict(cli.content(old)["campaign"])["definition"])
+        self.assertEqual(definition.pop("first_unit_problems"), 1)
+        old.unlink()
+        # As that version wrote it: the same definition without the key.
+        file = self.file("all.json", {**definition, "first_unit_problems": definition["unit_problems"]})
+        self.succeeds("search", file, "--finishing", 0, "--store", old, "--problems", 1)
+        cli.change(old, "UPDATE campaign SET value = ? WHERE key = 'definition'", [json.dumps(definition, separators=(",", ":"))])
+        for command in (("search", *options, "--problems", 10001), ("search", "--store", old, "--problems", 20001)):
+            self.succeeds(*command)
+        tallies, _ = cli.total(old)
+        self.assertEqual(sum(tally["problems"] for tally in tallies.values()), 30000)
+        self.succeeds("problem", old, 0, 9999)
+
+    # ---- How a search ends ----
+
+    def test_the_end_of_a_search_says_which_it_is(self):
+        store = self.folder / "a.store"
+        options = ("-g", "psd", "-c", 2, "--store", store, "--finishing", 0)
+        first = self.succeeds("search", *options, "--problems", 100)
+        self.assertIn("Finished: all problems that were asked for were tried.", first.err)
+        self.assertNotIn("it holds", first.err)
+        held = self.succeeds("status", store, "--json").json()["problems"]
+        again = self.succeeds("search", *options, "--problems", 100)
+        self.assertIn("Finished: all problems that were asked for had been tried.", again.err)
+        self.assertIn(f"it holds {held:,} problems,", again.err)
+        late = self.succeeds("search", *options, "--minutes", 0.01)
+        self.assertIn("Out of time after ", late.err)
+        self.assertIn("The same command goes on", late.err)
+        for done in (first, again, late):
+            self.assertNotIn("The same search again goes on", done.out)
+
+    def test_a_search_that_goes_on_counts_what_the_store_holds(self):
+        store = self.folder / "a.store"
+        self.completes(store, problems=150000)
+        held = self.succeeds("status", store, "--json").json()["problems"]
+        done = self.completes(store, "--minutes", 10)
+        lines = [line for line in done.err.splitlines() if " problems, " in line and "a second" in line]
+        for line in lines:
+            self.assertGreaterEqual(int(line.split()[2].replace(",", "")), held)
+
+    def test_finishing_says_what_it_finished(self):
+        store = self.folder / "a.store"
+        self.succeeds("search", self.campaign, "--store", store, "--problems", PROBLEMS, "--finishing", 0)
+        waiting = self.succeeds("status", store, "--json").json()["pending"]
+        self.assertGreater(waiting, 0)
+        done = self.succeeds("search", "--store", store, "--finish")
+        self.assertIn("Finished: no finding waits.", done.err)
+        self.assertNotIn("0 problems, 0 a second", done.err)
+        again = self.succeeds("search", "--store", store, "--finish")
+        self.assertIn("Finished: there was no finding to finish.", again.err)
+
+    def test_a_store_alone_names_its_search(self):
+        store = self.folder / "a.store"
+        self.completes(store, problems=1000)
+        self.succeeds("search", "--store", store, "--problems", PROBLEMS, "--finishing", 100)
+        self.assertSameContent(store, self.reference)
 
     # ---- Another campaign ----
 

@@ -96,7 +96,7 @@ class Tables(cli.TestCase):
             for key in ("moved_m", "speed_m_per_s"):
                 self.assertEqual(float(row[key]), motion[key])
         text = cli.run("simulate", FOLDER / "incline-slides.json", "-o", out, "--seconds", 1, "--no-svg").out
-        self.assertRegex(text, r"in the last 0\.5 s 0 of 1 bodies that can move rest\n  block slides: moved by \S+ m, \S+ m")
+        self.assertRegex(text, r"in the last 0\.5 s 0 of 1 body that can move rest\n  block slides: moved by \S+ m, \S+ m")
 
     def test_one_form_or_none_is_written_where_it_is_asked_for(self):
         out = self.simulate("stack", "--tables", "jsonl")

@@ -12,7 +12,7 @@ import time
 import cli
 
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 2000}
+            "contacts": [2, 3], "first_unit_problems": 2000, "unit_problems": 2000}
 PROBLEMS = 300000 if cli.ALL else 60000
 
 

@@ -95,21 +95,24 @@ class Space(cli.TestCase):
     def test_methods_and_arithmetics(self):
         for problem in self.solvable():
             ill = problem.stem in ILL_CONDITIONED
-            bounds = {"float": 1e-4, "double": 1e-8 if ill else 1e-10, "long-double": 1e-10}
+            bounds = {"float": 1e-4, "double": 1e-8, "long-double": 1e-8}
             for method, arithmetic in [("complete", "exact"), ("complete", "double"), ("complete", "long-double"),
                                        ("complete", "float"), ("fast", "double"), ("fast", "long-double")]:
                 if ill and arithmetic == "float":
                     continue
                 for law in ("baraff", "coulomb"):
                     with self.subTest(problem=problem.name, method=method, arithmetic=arithmetic, law=law):
+                        if law == "baraff" and arithmetic != "exact":
+                            self.refuses("solve", problem, "--method", method, "--arithmetic", arithmetic, "--law", law,
+                                         says="--law baraff")
+                            continue
                         done = self.succeeds("solve", problem, "--method", method, "--arithmetic", arithmetic,
                                              "--law", law, "--json").json()
                         self.assertEqual(done["outcome"], "solved")
                         if arithmetic != "exact":
                             self.assertLess(done["residual"], bounds[arithmetic])
                         self.assertEqual("bound" in done, arithmetic == "exact" and law == "coulomb")
-                        obeyed = law if arithmetic == "exact" else "coulomb"  # which its residual is of
-                        self.assertEqual(done["law"], obeyed)
+                        self.assertEqual(done["law"], law)
 
     def test_a_path_that_folds_and_descends(self):
         problem = cli.ROOT / "corpus/space/fold-and-descent-two-contacts.json"
@@ -207,7 +210,7 @@ class Space(cli.TestCase):
             self.assertEqual(("bound" in done, done.get("bound", "1")), (law == "coulomb", "1"))
             self.assertEqual((f[0] + f[3], f[6] + f[9]), (12, 12))
             self.assertEqual(sum(f[2::3]), Fraction("0.44145"))
-            self.assertIn("another solution with other accelerations is known; this is the one at rest\n",
+            self.assertIn("another solution with other accelerations is known; this one moves less, or rests\n",
                           self.succeeds("solve", pinched, "--law", law).out)
             moving = self.succeeds("solve", pinched, "--law", law, "--method", "complete", "--json").json()
             self.assertNotEqual(set(moving["a"]), {"0"})

@@ -88,6 +88,12 @@ class Structure(cli.TestCase):
                     with self.subTest(file=path, includes=name):
                         self.assertRegex(name, r"^(Eigen/\w+|[a-z_]+)$")
 
+    def test_json_text_is_made_in_one_place(self):
+        # Elsewhere a byte of somebody's file that is no UTF-8 would throw, and a number that is not finite become null.
+        makers = sorted(path for path in self.ours if re.search(r"(\.|->)dump\(", (cli.ROOT / path).read_text()))
+        # Hosts of Ipopt and of solvers under test are processes of their own, which write a line each.
+        self.assertEqual(makers, ["certify/ipopt/stiction_ipopt.cpp", "corpus/json_text.cpp", "search/under_test/host.cpp"])
+
     def test_command_line_parsers_stand_in_the_programs_alone(self):
         users = {path for path, names in self.others.items() if any(name.startswith("CLI/") for name in names)}
         self.assertEqual({path for path in users if not path.startswith("bench/peers/")}, {"cli/command_line.cpp"})

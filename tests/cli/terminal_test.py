@@ -153,7 +153,7 @@ class Terminal(cli.TestCase):
         self.assertGreater(len(screens), 1)
         for screen in screens[:-1]:
             self.assertLess(screen.count("\n"), 24)
-            self.assertRegex(screen.splitlines()[0], r"runs, .* more; .* groups, .* new")
+            self.assertRegex(screen.splitlines()[0], r"runs, .* more; .* groups?, .* new")
             self.assertIn("problems in ", screen)
         self.assertIn("no process works on", screens[-1])
 

@@ -44,7 +44,7 @@ class TextReport(cli.TestCase):
         more = summary[summary.index("\nMore as text") + 1:].splitlines()  # what stands before commands speaks of them
         self.assertRegex(more[0], "to check:$")
         self.assertEqual([line.split()[:2] for line in more[1:3]], [["stiction", "report"]] * 2)
-        self.assertEqual(more[3:], ["The same search again goes on."])
+        self.assertEqual(more[3:], ["More --minutes or --problems go on from here."])
 
     def test_the_text_fits_two_screens_and_all_of_it_is_asked_for(self):
         many = self.made / "many.store"

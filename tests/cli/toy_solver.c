@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A right solver of the frictionless problem, by trying which contacts press; and with -DBUG_... one that is wrong
- * where under_test_test.py says. -DLAW says another law. -DRARE makes the conditions of the bugs as rare as they are asked to be. */
+/* A right solver of the frictionless problem, by trying which contacts press; and with -DBUG_... one that is
+ * wrong where under_test_test.py says. -DLAW says another law. -DRARE makes the conditions of the bugs as rare
+ * as they are asked to be. */
 #include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -54,7 +55,8 @@ static int press(const stiction_solver_problem* p, unsigned set, double* f) {
 static int holds(const stiction_solver_problem* p, const double* f) {
   for (int i = 0; i < p->rows; ++i) {
     double a = p->b[i], size = fabs(p->b[i]);
-    for (int j = 0; j < p->rows; ++j) a += p->A[i * p->rows + j] * f[j], size += fabs(p->A[i * p->rows + j] * f[j]);
+    for (int j = 0; j < p->rows; ++j)
+      a += p->A[i * p->rows + j] * f[j], size += fabs(p->A[i * p->rows + j] * f[j]);
     if (a < -1e-9 * size || f[i] < 0) return 0;
   }
   return 1;
@@ -99,6 +101,9 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
     if (!press(p, set, f) || !holds(p, f)) continue;
 #ifdef BUG_TIE
     if (twins && f[0] > 0) f[0] = -f[0];
+#endif
+#ifdef BUG_NOISE /* by just more than its accuracy where A = 1, and by more where A is larger */
+    f[0] += 1.03e-6 * fabs(b[0]) * A[0];
 #endif
 #ifdef BUG_NAN
     if (rare) f[0] = (A[0] - A[n + 1]) / (b[0] - b[1]);

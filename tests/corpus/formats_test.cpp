@@ -173,7 +173,7 @@ TEST_CASE("formats: contacts that a format does not have are refused") {
 
 SparseProblem Parse(const std::string& text) { return ParseSiconos(text, std::nullopt, "file"); }
 
-const std::string kDense = "2 1 0 2 2 2 2\n 1 2\n 3 4\n -5 0.1\n 0.5\nwhatever stands here\n";
+const std::string kDense = "2 1 0 2 2 2 2\n 1 2\n 3 4\n -5 0.1\n 0.5\n\nwhatever stands here\n";
 const std::string kBlocks =
     "2 2 1 4 4\n3\n2\n2\n2 4\n2 4\n3\n3\n0 1 3\n0 0 1\n0\n 1 2 3 4\n1\n 5 6 7 8\n2\n 9 0 0 1\n 1 2 3 4\n 1 "
     "0\n1\n";
@@ -234,7 +234,7 @@ TEST_CASE("Siconos: a malformed file is refused with its line, what was found an
            {Without(kDense, "0.1", "0.1x"), "line 4", "'0.1x'", "q[1]"},
            {Without(kDense, "0.5", "-0.5"), "line 5", "-1/2", "mu[0], a number >= 0"},
            {Without(kDense, "2 2 2 2", "2 2 2 3"), "line 1", "'3'", "2, the columns of the matrix"},
-           {Without(kDense, " 3 4\n", ""), "line 5", "'whatever'", "q[1]"},
+           {Without(kDense, " 3 4\n", ""), "line 6", "'whatever'", "q[1]"},
            {kDense.substr(0, 22), "line 3", "the end of the file", "entry"},
            {Without(kBlocks, "2 4\n2 4", "2 5\n2 4"), "line 5", "'5'", "4, the end of block row 1"},
            {Without(kBlocks, "0 1 3", "0 4 3"), "line 9", "'4'", "row pointer 1"},
@@ -265,16 +265,39 @@ TEST_CASE("Siconos: LCP or friction is told by the first words") {
   CHECK(Parse(kColumns).contacts[0].kind == ContactKind::kStatic);
 }
 
-TEST_CASE("Siconos: behind the last number may stand a flag, 0 or 1, and text, and no other number") {
+TEST_CASE("Siconos: behind the last number may stand a flag, and below an empty line a remark, which is kept") {
+  const std::string lcp = "2 0 2 2 2 2\n1 2\n3 4\n-5 6\n";
+  const std::string friction = "2 1 0 2 2 2 2\n1 2\n3 4\n-5 6\n0.5\n";
+  const std::string parts = "1 1 1 1\n0 1 2\n0 1\n0 2 2 2 2\n1 2\n3 4\n-5 6\n1 4 3 2 -5 6\n";
+  for (const std::string& text : {lcp, friction, parts}) {
+    const SparseProblem problem = Parse(text);
+    for (const auto& [rest, remark] :
+         std::vector<std::pair<std::string, std::string>>{{"0", ""},
+                                                          {"1\n", ""},
+                                                          {"\f\n", ""},
+                                                          {"\n# of 3 files", "# of 3 files"},
+                                                          {"0\n \n# \xff", "# ?"},
+                                                          {"\nExample 4.4.7\n 8 9", "Example 4.4.7 8 9"}}) {
+      CAPTURE(text, rest);
+      SparseProblem read = Parse(text + rest);
+      CHECK(read.origin.value("remark", "") == remark);
+      read.origin.erase("remark");
+      CheckEqual(read, problem);
+    }
+    const std::string line = text == lcp ? "line 5" : text == friction ? "line 6" : "line 9";
+    for (const std::string rest : {"garbage", "1 solved", "# a remark", "4.4.7 CPS", "x 0 1", "\xff"}) {
+      CAPTURE(text, rest);
+      CHECK_THROWS_WITH(Parse(text + rest), Contains("file: " + line + ": found text, from '") &&
+                                                Contains("expected the end of the file"));
+    }
+    CHECK_THROWS_WITH(Parse(text + "0\n# of 3 files"), Contains("found text, from '#' on"));
+  }
+}
+
+TEST_CASE("Siconos: behind the last number stands no other number") {
   const std::string lcp = "2 0 2 2 2 2\n1 2\n3 4\n-5 6\n";
   const std::string friction = "2 1 0 2 2 2 2\n1 2\n3 4\n-5 6\n0.5\n";
   for (const std::string& text : {lcp, friction}) {
-    const SparseProblem problem = Parse(text);
-    for (const char* rest :
-         {"0", "1\n", "1 solved", "0\n# of 3 files", "Example 4.4.7\n 8 9", "4.4.7 CPS", "\f\n"}) {
-      CAPTURE(text, rest);
-      CheckEqual(Parse(text + rest), problem);
-    }
     struct Case {
       std::string rest, line, found;
     };

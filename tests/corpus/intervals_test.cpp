@@ -100,7 +100,7 @@ TEST_CASE("intervals: texts") {
 TEST_CASE("intervals: texts have as many digits as tell the ends from the value") {
   CHECK(RateText(1242522, 10000000000) == "124.3 [124, 124.5]");
   CHECK(RateText(378629, 10000000000) == "37.9 [37.7, 38]");  // three do
-  CHECK(RateText(12000000, 30000000) == "400,000 [399,700, 400,300]");
+  CHECK(RateText(12000000, 30000000) == "400,000 [399,800, 400,200]");
   CHECK(RateText(25000001, 10000000000) == "2,500 [2,499, 2,501]");
   CHECK(ShareText(10000000, 10000000) == "100 % [99.99996, 100]");
   CHECK(ShareText(0, 10000000) == "0 % [0, 3.69e-05]");
@@ -115,6 +115,22 @@ TEST_CASE("intervals: texts have as many digits as tell the ends from the value"
   }
   CHECK(DigitsToTell(124.254, {124.036, 124.473}, 3) == 4);
   CHECK(DigitsToTell(0, {0, 3.7}, 3) == 3);
+}
+
+TEST_CASE("intervals: a rate is never beyond a million in a million, and few events are counted as events") {
+  for (const std::int64_t of : {1, 100, 10000, 123456789}) {
+    CHECK(RateInterval(of, of).high == 1);
+    CHECK(RateInterval(of, of).low == ShareInterval(of, of).low);
+    CHECK(RateInterval(0, of).low == 0);
+    for (const std::int64_t count : {of / 2, of - of / 7}) {
+      CHECK(RateInterval(count, of).high <= 1);
+      CHECK(RateInterval(count, of).low <= static_cast<double>(count) / static_cast<double>(of));
+      CHECK(RateInterval(count, of).high >= static_cast<double>(count) / static_cast<double>(of));
+    }
+  }
+  CHECK(RateText(10000, 10000) == "1,000,000 [999,600, 1,000,000]");
+  CHECK(RateInterval(3, 4000).high == CountInterval(3).high / 4000);
+  CHECK(RateInterval(20000000000, 20000000000).high == 1);
 }
 
 }  // namespace stiction

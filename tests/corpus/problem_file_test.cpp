@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +21,8 @@
 #include "corpus/exact_number.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/json.h"
+#include "corpus/record/definite_block.h"
+#include "corpus/stop_reading.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -180,7 +183,8 @@ TEST_CASE("problem file: numbers are taken at their exact value") {
       {"-0.0", "0"},
       {"1.5", "3/2"},
       {"1E2", "100"},
-      {"1e-400", "0"},
+      {"0e-400", "0"},
+      {R"("1e-3")", "1/1000"},
       {"9007199254740992", "9007199254740992"},
       {"9007199254740994", "9007199254740994"},
       {"-9223372036854775808", "-9223372036854775808"},
@@ -317,6 +321,130 @@ TEST_CASE("problem file: J may be rows of numbers, and c is zero where it is lef
   CHECK(file.problem.b(0) == -1);
   CHECK(file.problem.contacts.size() == 1);
   CHECK(!ToJson(*file.factors).contains("c"));
+}
+
+TEST_CASE("problem file: factors that tell no number of rows are refused by what they lack") {
+  const std::string expected = R"({"size": [rows, velocities], "entries"}, or an array of rows)";
+  for (const std::string J : {"0", "null", "\"x\"", "true"}) {
+    CHECK(Refusal(R"({"factors": {"J": )" + J + R"(, "M": [1, 1], "w": [0, 0]}, "mu": 1})") ==
+          "p.json: factors.J: found " + J + ", expected " + expected);
+  }
+  CheckRefusals({
+      {R"({"factors": {"J": {"size": [-1, 2], "entries": []}, "M": [1, 1], "w": [0, 0]}, "mu": 1})",
+       "dimension: found nothing, and no sizes that tell it, expected 2 or 3, and b, A or factors.J with a row "
+       "each "
+       "for the contacts"},
+      {R"({"factors": {"J": {"size": [0, 5], "entries": []}, "M": [1, 1], "w": [0, 0]}, "mu": []})",
+       "factors.M: found blocks of 2 velocities, expected 5, the columns of J"},
+  });
+}
+
+TEST_CASE("problem file: factors without rows, columns or entries are a problem") {
+  const ProblemFile none =
+      ParseProblem(R"({"factors": {"J": [], "M": [1, 1], "w": [0, 0]}, "mu": 1})", "p.json");
+  CHECK(none.problem.contacts.empty());
+  const ProblemFile still = ParseProblem(
+      R"({"factors": {"J": {"size": [2, 0], "entries": []}, "M": [], "w": [], "c": [-1, 0]}, "mu": 1})",
+      "p.json");
+  CHECK(still.problem.A.isZero(0));
+  CHECK(still.problem.b(0) == -1);
+  CHECK(SameProblem(ParseProblem(Print(still), "printed").problem, still.problem));
+}
+
+// M of `size` velocities, 2 on the diagonal and fractions beside it.
+std::string LargeBlock(int size, const std::string& diagonal) {
+  std::string M;
+  for (int i = 0; i < size; ++i) {
+    M += i == 0 ? "[[" : "], [";
+    for (int j = 0; j < size; ++j)
+      M += std::string(j == 0 ? "" : ", ") +
+           (i == j ? diagonal : "\"1/" + std::to_string(70 + std::abs(i - j)) + '"');
+  }
+  return M + "]]";
+}
+
+std::string WithLargeBlock(int size, const std::string& diagonal) {
+  std::string w = "1";
+  for (int i = 1; i < size; ++i) w += ", -1";
+  return R"({"factors": {"J": {"size": [2, )" + std::to_string(size) +
+         R"(], "entries": [[0, 0, 1], [0, 3, "1/3"], [1, 1, 2]]}, "M": [)" + LargeBlock(size, diagonal) +
+         R"(], "w": [)" + w + R"(]}, "mu": 1})";
+}
+
+TEST_CASE("problem file: A of a large block of masses is J inv(M) J', exactly, and its inverse is not formed") {
+  for (const int size : {kMostWholeInverse, kMostWholeInverse + 1, 40}) {
+    CAPTURE(size);
+    const ProblemFile file = ParseProblem(WithLargeBlock(size, "2"), "p.json");
+    REQUIRE(file.factors);
+    const auto inverse = InverseOfDefinite(ExactProblem::Matrix(file.factors->M.toDense()));
+    REQUIRE(inverse);
+    const ExactProblem::Matrix J = file.factors->A.J().toDense();
+    CHECK((file.problem.A == J * *inverse * J.transpose()));
+    const ExactProblem::Vector f = (ExactProblem::Vector(2) << Rational(3), Rational(-1, 7)).finished();
+    CHECK((file.factors->Responses(f) == *inverse * J.transpose() * f));
+    CHECK((file.factors->Accelerations(f) == file.problem.A * f + file.problem.b));
+    CHECK(file.factors->A.W().nonZeros() == (size > kMostWholeInverse ? 0 : size * size));
+    const FactoredProblem<double> rounded = InDoubles(*file.factors);
+    const Eigen::VectorXd moved = rounded.Responses(f.unaryExpr(&ToDouble));
+    CHECK((moved - file.factors->Responses(f).unaryExpr(&ToDouble)).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("problem file: a large block of masses is definite or refused, whatever doubles say of it") {
+  const std::string refused =
+      "p.json: factors.M[0]: found a block that is not positive definite, expected a positive definite block "
+      "of masses";
+  CHECK(Refusal(WithLargeBlock(20, "\"1/1000\"")) == refused);  // indefinite
+  CHECK(Refusal(WithLargeBlock(20, "0")) == refused);
+  CHECK(Refusal(WithLargeBlock(20, "-2")) == refused);
+  // All ones is singular; 1e-40 more on the diagonal, which doubles do not see, makes it definite.
+  const int size = 14;
+  const auto of_ones = [&](const std::string& diagonal) {
+    std::string M, w;
+    for (int i = 0; i < size; ++i) {
+      M += i == 0 ? "[" : ", [";
+      w += i == 0 ? "0" : ", 0";
+      for (int j = 0; j < size; ++j) M += (j == 0 ? "" : ", ") + (i == j ? diagonal : std::string("1"));
+      M += "]";
+    }
+    return R"({"factors": {"J": {"size": [2, 14], "entries": [[0, 0, 1]]}, "M": [[)" + M + R"(]], "w": [)" + w +
+           R"(]}, "mu": 1})";
+  };
+  CHECK(Refusal(of_ones("1")) == refused);
+  const std::string more = "\"1." + std::string(39, '0') + "1\"";
+  CHECK(ParseProblem(of_ones(more), "p.json").problem.A(0, 0) > 0);
+}
+
+TEST_CASE("problem file: the exact arithmetic of reading ends when somebody says so") {
+  const std::atomic<bool> stopped = true, goes_on = false;
+  {
+    const StopReading stop(stopped);
+    CHECK_THROWS_AS(ParseProblem(WithLargeBlock(20, "2"), "p.json"), ReadingStopped);
+    const StopReading inner(goes_on);
+    CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));
+  }
+  CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));
+}
+
+TEST_CASE("problem file: wrong keys of all levels are told at once") {
+  CheckRefusals({
+      {R"({"A": {"size": 2, "entries": [], "order": 1}, "b": [0, 0], "contacts": [{"kind": "static", "mu": 1, "Mu": 2}],
+           "colour": 1})",
+       "colour: found an unknown key, expected only format, version, name, dimension, contacts, mu, A, b, "
+       "factors, "
+       "scene, origin, expect; contacts[0].Mu: found an unknown key, expected only kind, mu, slip; A.order: "
+       "found an "
+       "unknown key, expected only size, entries"},
+      {R"({"contacts": [{"sort": "static", "mu": 1}], "A": [[0, 0], [0, 0]], "b": [0, 0]})",
+       "contacts[0].sort: found an unknown key, expected only kind, mu, slip; contacts[0].kind: found nothing, "
+       "expected one of bilateral, frictionless, static, sliding"},
+      {R"({"factors": {"J": {"size": [2, 1], "entries": [], "x": 1}, "M": [1], "w": [0], "y": 2}, "mu": 1, "z": 3})",
+       "z: found an unknown key, expected only format, version, name, dimension, contacts, mu, A, b, factors, "
+       "scene, "
+       "origin, expect; factors.y: found an unknown key, expected only J, M, w, c; factors.J.x: found an "
+       "unknown key, "
+       "expected only size, entries"},
+  });
 }
 
 TEST_CASE("problem file: factors of many rows are read without A, which is formed when asked for") {
@@ -584,14 +712,27 @@ TEST_CASE("problem file: a number of a certificate has as many characters as are
   CHECK_THROWS_AS(ExactNumber(JsonPlace(more, source, "b[1]"), true), InputError);
 }
 
-TEST_CASE("problem file: an infinite number is refused") {
+TEST_CASE("problem file: a number beyond the doubles is refused, and told to be a string") {
+  const std::string large = "expected a number in the range of doubles; as a string, ";
   CheckRefusals({
-      {WithNumber("1e400"), "b[1]: found 1e400, expected a finite number"},
-      {WithNumber("-1e309"), "b[1]: found -1e309, expected a finite number"},
-      {WithNumber("1" + std::string(400, '0')),
-       "b[1]: found 1" + std::string(59, '0') + "... (401 characters), expected a finite number"},
-      {WithMembers(R"("origin": {"x": [1, 1e999]})"), "origin.x[1]: found 1e999, expected a finite number"},
+      {WithNumber("1e400"), "b[1]: found 1e400, " + large + "\"1e400\", it is exact"},
+      {WithNumber("-1e309"), "b[1]: found -1e309, " + large + "\"-1e309\", it is exact"},
+      {WithNumber("1e-400"),
+       "b[1]: found 1e-400, which is no double but 0, " + large + "\"1e-400\", it is exact"},
+      {WithMembers(R"("origin": {"x": [1, 1e999]})"),
+       "origin.x[1]: found 1e999, " + large + "\"1e999\", it is exact"},
   });
+  for (const std::string literal : {"1e-310", "-5e-324", "2.2e-308"}) {
+    CAPTURE(literal);
+    CHECK_THROWS_WITH(
+        ParseProblem(WithNumber(literal), "p.json"),
+        Contains("p.json: b[1]: found " + literal +
+                 ", where doubles have fewer digits, expected "
+                 "a number of magnitude 2.2250738585072014e-308 or more; as a string it is exact"));
+  }
+  CHECK(ParseProblem(WithNumber("2.3e-308"), "p.json").problem.b(1) == Rational(2.3e-308));
+  for (const std::string exact : {"1e-400", "-5e-324", "1e-10000", "1e400"})
+    CHECK(ParseProblem(WithNumber('"' + exact + '"'), "p.json").problem.b(1) == *ParseRational(exact));
 }
 
 TEST_CASE("problem file: an integer literal that is no exact double is refused") {

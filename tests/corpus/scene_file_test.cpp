@@ -212,5 +212,32 @@ TEST_CASE("scene file: errors name the place, what was found and what was expect
                "dimension", "2");
 }
 
+TEST_CASE("scene file: what is wrong at all levels is told at once") {
+  const std::string text =
+      R"({"format": "stiction-scene", "version": 1, "name": "s", "dimension": 2, "colour": 1, "mu": -1, "bodies": [
+          {"name": "floor", "fixed": true, "mass": 1, "size": 2},
+          {"name": "block", "mass": 0, "rotation": [1, 1], "shapes": [{"disc": -1}, {"disc": 1, "weight": 3}]},
+          {"mass": 1, "inertia": 1, "position": [0]}],
+        "joints": [{"kind": "pin", "bodies": ["floor", "block"], "at": [0, 0], "glue": 1}],
+        "contacts": [{"bodies": ["floor", "door"], "at": [0, 0], "normal": [0, 1], "friction": 1}],
+        "pairs": [{"bodies": ["floor", "block"], "mu": "x", "colour": 2}]})";
+  std::string message;
+  try {
+    ParseScene(text, "file");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  // At most ten are shown, and how many more there are.
+  for (const char* told :
+       {"file: colour: found an unknown key", "; mu: found -1", "; bodies[0].size: found an unknown",
+        "; bodies[0].mass: found 1, expected no mass", "; bodies[1].mass: found 0",
+        "; bodies[1].shapes[0].disc: found -1", "; bodies[1].shapes[1].weight: found an unknown key",
+        "; bodies[1].rotation: found [1,1]", "; bodies[2].name: found nothing",
+        "; bodies[2].position: found [0]", "; and 5 more"}) {
+    CAPTURE(message, told);
+    CHECK(message.find(told) != std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace stiction

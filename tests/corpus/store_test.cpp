@@ -774,6 +774,15 @@ TEST_CASE("work: a block has the builds and the time of its units, and of finish
   CHECK(Store::OpenToRead(scratch / "a.store").TotalWork() == expected);
 }
 
+TEST_CASE("work: less time than none, by a clock that was set back, is none") {
+  const Scratch scratch;
+  Store store(scratch / "a.store", Identity());
+  store.AddUnit({}, 0, RecordOf(0), CandidatesOf(0), {}, {{"build"}, {.doubles = -7, .exact = 3}});
+  const Work expected{{"build"}, {.exact = 3}};
+  CHECK(store.TotalWork() == expected);
+  CHECK(Store::OpenToRead(scratch / "a.store").TotalWork() == expected);
+}
+
 TEST_CASE("work: copies of a unit or block with other work are the same unit or block", "[slow]") {
   const Scratch scratch;
   const auto make = [&](const std::string& name, std::int64_t units, const std::string& build,

@@ -18,7 +18,7 @@ import cli  # noqa: E402
 
 FLIPS = 60 if cli.ALL else 10
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 5, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 220}
+            "contacts": [2, 3], "first_unit_problems": 220, "unit_problems": 220}
 PROBLEMS = 190000  # one block and some units
 
 

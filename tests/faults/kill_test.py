@@ -20,7 +20,7 @@ KILLS = 4 if cli.ALL else 2
 UNIT = 1200 if cli.ALL else 300
 PROBLEMS = 880 * UNIT  # 1056 units: one block and some
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 5, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": UNIT}
+            "contacts": [2, 3], "first_unit_problems": UNIT, "unit_problems": UNIT}
 SHARDS = 3
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables and numbers in Markdown."""
 
+import decimal
 import re
 import textwrap
 
@@ -65,12 +66,22 @@ def digits_of(number, digits):
     return f"{round(number, left):,.{max(left, 0)}f}"
 
 
+def outward(end, digits, rounding):
+    """The end of an interval in so many digits; a number that has no more stays."""
+    if end == 0:
+        return digits_of(end, digits)
+    exact = decimal.Decimal(f"{end:.15g}")
+    step = decimal.Decimal(1).scaleb(exact.adjusted() + 1 - digits)
+    return digits_of(float((exact / step).to_integral_value(rounding) * step), digits)
+
+
 def with_ends(value, low, high, unit=""):
-    """A value and its interval, in three digits or as many as tell the ends from it."""
+    """A value and its interval, outward, in three digits or as many as tell the ends from it."""
     digits = 3
     while digits < 15 and any(end != value and f"{end:.{digits}g}" == f"{value:.{digits}g}" for end in (low, high)):
         digits += 1
-    return f"{digits_of(value, digits)}{unit} [{digits_of(low, digits)}, {digits_of(high, digits)}]"
+    return (f"{digits_of(value, digits)}{unit} [{outward(low, digits, decimal.ROUND_FLOOR)}, "
+            f"{outward(high, digits, decimal.ROUND_CEILING)}]")
 
 
 def rate(number, of, unit=1_000_000):

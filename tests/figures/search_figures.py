@@ -493,13 +493,13 @@ def adversary_solvers(program):
         failed = [counts[kind.replace("-", "_")] for kind in FAILURES]
         rates.append((f"`{name}`{place}", solver["version"], solver["law"], count(of), f"{100 * counts['passed'] / of:.2f}",
                       *(rate(number, of) if number else "0" for number in failed), count(counts["refused"]),
-                      count(counts["unjudged"]), count(counts["misses_coulomb"])))
+                      count(counts["unjudged"]), count(counts["misses_coulomb"]), count(counts["neither"])))
         smallest += smallest_of(program, store, name + place, told)
     head = ["solver", "version", "law", "problems", "passed, %", *(kind.replace("-", " ") for kind in FAILURES), "refused",
-            "unjudged", "not Coulomb's"]
+            "unjudged", "not Coulomb's", "neither"]
     return table(head, rates) + "\n\n" + prose(
-        "Failures in a million problems, in brackets exact intervals at 95 %; the last three columns are counts: given up "
-        "where no solution of the law is known, called solved where its bounds are not unique, and right by its law but not "
-        "by Coulomb's. Problems are those of all ordinary generators, the same for every solver of the plane; of others 1e-6 "
+        "Failures in a million problems, in brackets exact intervals at 95 %; the last four columns are counts: given up "
+        "where no solution of the law is known, called solved where its bounds are not unique, right by its law but not "
+        "by Coulomb's, and passed by the largest units but not solved by the strict ones. Problems are those of all ordinary generators, the same for every solver of the plane; of others 1e-6 "
         "is asked, of `stiction` 1e-8, which it states.") + "\n\n" + table(
         ["solver", "failure", "contacts", "the smallest problem of it", "contacts of the smallest scene"], smallest)

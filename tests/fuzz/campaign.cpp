@@ -23,7 +23,7 @@ bool TakesIdentity(const CampaignIdentity& identity) {
     const std::int64_t units = UnitsFor(*campaign, problems);
     STICTION_CHECK((units == 0) == (problems == 0) && units <= problems, "units without a problem");
   }
-  STICTION_CHECK(UnitProblems(*campaign, TaskOf(schedule, 12345)) >= 1, "a unit without problems");
+  STICTION_CHECK(UnitProblems(*campaign, TaskOf(schedule, 12345), 12345) >= 1, "a unit without problems");
   return true;
 }
 

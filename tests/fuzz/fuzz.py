@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the fuzz targets (targets.h) with clang, libFuzzer and the sanitizers in build/fuzz, and runs them.
 
-    tests/fuzz/fuzz.py [--seconds N] [--target NAME ...] [--jobs N]
+    tests/fuzz/fuzz.py [--seconds N] [--target NAME ...] [--longer NAME=N] [--jobs N]
 
 A target starts from its seeds (targets.json), from inputs that once failed (findings/NAME), and from what
 earlier runs found worth keeping (build/fuzz/corpus/NAME). An input that fails, takes too long or too much
@@ -208,12 +208,20 @@ class Run:
         return line
 
 
+def longer(words):
+    name, _, seconds = words.partition("=")
+    if name not in TABLE or not seconds.isdigit():
+        raise argparse.ArgumentTypeError(f"found '{words}', expected one of {', '.join(TABLE)}, '=' and seconds")
+    return name, int(seconds)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=int, default=60, help="of processor time of every target (default 60)")
     parser.add_argument("--target", nargs="+", choices=list(TABLE), metavar="NAME",
                         default=[name for name, row in TABLE.items() if not row.get("only_if_named")],
                         help=f"of {', '.join(TABLE)}")
+    parser.add_argument("--longer", type=longer, default=("", 0), metavar="NAME=N", help="seconds of one of them")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build, and targets at a time")
     o = parser.parse_args()
     BUILD.mkdir(parents=True, exist_ok=True)
@@ -225,8 +233,10 @@ def main():
     build(o.target, o.jobs)
     ledger = Ledger()
     print(f"{'target':12} {'inputs':>11} {'seconds':>9} {'edges':>9} {'corpus':>8} {'findings':>9}", flush=True)
+    of = {name: seconds for name, seconds in [o.longer] if name in o.target}  # the longest first
+    of |= {target: o.seconds for target in o.target if target not in of}
     with concurrent.futures.ThreadPoolExecutor(max_workers=o.jobs) as pool:
-        runs = list(pool.map(lambda name: Run(name, ledger).go(o.seconds), o.target))
+        runs = list(pool.map(lambda item: Run(item[0], ledger).go(item[1]), of.items()))
     return 1 if any(run.spent["broken"] or run.spent["findings"] for run in runs) else 0
 
 

@@ -12,7 +12,8 @@ std::span<const Target> Targets() {
       Target{"scene", &FuzzScene},       Target{"siconos", &FuzzSiconos},
       Target{"fclib", &FuzzFclib},       Target{"hdf5", &FuzzHdf5},
       Target{"store", &FuzzStore},       Target{"solve", &FuzzSolve},
-      Target{"certify", &FuzzCertify},   Target{"record", &FuzzRecord}};
+      Target{"certify", &FuzzCertify},   Target{"record", &FuzzRecord},
+      Target{"every", &FuzzEvery}};
   return targets;
 }
 

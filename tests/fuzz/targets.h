@@ -17,6 +17,7 @@
 //   hdf5          an HDF5 file as it is. What is damaged in it is first of all HDF5's affair
 //   store         JSON that says what stands in the columns of a store (store.cpp): statistics, report, merge
 //   certify       the same problems: every certificate that is made of one is accepted
+//   every         a problem, scene or .dat file: every reader, then every method and every writer
 //   solve         choices (bytes.h) that make a problem (extreme.h) and choose a method and an arithmetic
 // clang-format on
 
@@ -43,6 +44,7 @@ bool FuzzHdf5(std::string_view bytes);
 bool FuzzStore(std::string_view bytes);
 bool FuzzSolve(std::string_view bytes);
 bool FuzzCertify(std::string_view bytes);
+bool FuzzEvery(std::string_view bytes);
 
 struct Target {
   std::string_view name;

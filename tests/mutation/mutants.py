@@ -24,13 +24,14 @@ def bug(function, name, original, mutated, breaks, type=None, equivalent=None):
 
 # ---- The gate ----
 
-bug("BoundErrors", "rounding-not-bounded", "Units<long double>::Rounding(problem.rows())", "0.0L",
+bug("Bound", "rounding-not-bounded", "Scalar(gate.theta()), &rounding_)", "Scalar(gate.theta()))",
     "the errors are not upper bounds")
-bug("Sticks", "beyond-the-limit", "error.force = std::max(error.force, InUnits(gap.excess, friction_unit_));", "",
+bug("TakeFriction", "beyond-the-limit", "of_friction_[i] = excess;", "of_friction_[i] = Scalar(0);",
     "a contact that sticks has any friction")
-bug("Nearest", "separates-with-friction",
-    "open.force = std::max(open.force, InUnits(Length(fF_[0], fF_[1]), friction_.force));", "",
-    "a contact that separates may have friction")
+bug("Take", "separates-with-forces", "if (f[row + k] != 0) AddGhost(problem, f, i, row + k);", "",
+    "a contact that separates may have forces")
+bug("AddGhost", "acts-on-nothing", "if (!acts) of_friction_[contact] = most_;", "",
+    "a force that acts on no row is none")
 
 # ---- certify/claims/solution.cpp ----
 
@@ -126,9 +127,15 @@ bug("CheckCertificate", "certificate-digest", "!digest.empty() && report.digest 
     "check --problem: any problem")
 bug("ReadClaim", "certificate-version", '!certificate["version"].is_number_integer() || certificate["version"] != 1',
     'certificate["version"] != 1', "version 1.0 is read")
-bug("RequireFewRows", "certificate-rows", "rows <= kMostRowsOfCertificate", "true", "any number of rows")
+bug("RequireFewRows", "certificate-rows", "rows > kMostRowsOfCertificate", "false", "any number of rows")
+bug("RequireFewRows", "certificate-cells", "cells > most", "false", "matrices that nothing pays for")
+bug("RequireFewDigits", "certificate-digits", "digits > most", "false", "exponents that nothing pays for")
 bug("Add", "work-bits", "bits_ <= most_", "true", "operations on numbers of any length")
-bug("AddGroup", "work-of-products", "work_ <= kMostWork", "true", "products of any work")
+bug("RequireWork", "work", "work <= most", "true", "claims of any work")
+bug("RequireTouchedBlocks", "velocities-untouched", "untouched == rows_of.end()", "true",
+    "factors: velocities that no row touches")
+bug("FaultOfNumbers", "loops-large-numbers", "if (!large) return std::nullopt;", "return std::nullopt;",
+    "runs in space: numbers that the bits hardly hold")
 bug("RequireKeys", "unknown-keys",
     'if (!keys.contains(key)) throw Rejected{path + "." + key, "an unknown key", expected};', "",
     "unknown keys are passed over")
@@ -199,7 +206,7 @@ bug("check_not_in_range", "py-not-in-range-kernel", """equal(long_times(zip(*pro
     "None", "not-in-range: y'A may be anything")
 bug("in_dual_cone", "py-h-cone", "gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents)", "True", "h: dual cones without friction")
 bug("solved", "py-factors-definite", "need(pivot > 0", "need(pivot != 0", "factors: masses may be negative")
-bug("factors", "py-factors-matrix", "A[i].get(j, 0) == problem.A[i][j]", "True", "factors: of any A")
+bug("factors", "py-factors-matrix", "product == problem.A[i][j]", "True", "factors: of any A")
 bug("factors", "py-factors-free", """equal(problem.b, b, "$.problem.b", "J w + c")""", "None", "factors: of any b")
 bug("check_not_h", "py-not-h-kernel", """equal(long_times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",
     "not-h: A v may be anything")
@@ -221,9 +228,13 @@ bug("check_unsafe", "py-unsafe", "value <= 0", "True", "unsafe: a positive deter
 
 bug("AddFriction", "solver-drives", "force * a > 0", "force * a < 0", "friction that drives the slip is called less than its limit")
 bug("TakeOutIdle", "solver-idle", "largest > accuracy * accuracy", "false", "any force of idle contacts is none")
-bug("Allow", "solver-hypotheses", "!is_semidefinite || IsPositiveSemidefinite(problem)", "true",
+bug("LackOf", "solver-hypotheses", "!IsSymmetric(problem) || !IsPositiveSemidefinite(problem)", "!IsSymmetric(problem)",
     "a finding is minimized to a problem that is not semidefinite")
-bug("FinishSolverFinding", "solver-alike", "examined.kind == sought.kind && examined.what == sought.what",
-    "examined.kind == sought.kind", "a finding is minimized to another failure of its kind")
+bug("LackOf", "solver-row", "moves_ && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
+bug("FailsAlike", "solver-alike", "examined.kind == sought_.kind && examined.what == sought_.what",
+    "examined.kind == sought_.kind", "a finding is minimized to another failure of its kind")
+bug("FailsAlike", "solver-clear", "examined.error >= least_", "true", "a finding is minimized to the edge of the accuracy")
+bug("Growth", "leak-falls", "growth <= 0 || growth + slack < kSteady * before * span", "growth <= 0",
+    "what fills up is a leak")
 bug("AsPosed", "solver-scene", "PosedFor(law, RoundedOf(scene, nullptr))", "RoundedOf(scene, nullptr)",
     "a scene's problem keeps its friction under a law without")

@@ -146,6 +146,23 @@ class Solved(unittest.TestCase):
             problem.A
         self.assertIn("4800 rows", repr(problem))
 
+    def test_what_has_no_entries_or_no_sizes_does_not_end_the_interpreter(self):
+        problems = Path(sys.argv[2]) / "tests/problems"
+        with self.assertRaisesRegex(ValueError, "factors.J: found 0"):
+            stiction.load(problems / "segv-factors-J.json")
+        for name in ("segv-newton-bodies", "segfault-explain-factors", "empty"):
+            problem = stiction.load(problems / f"{name}.json")
+            outcome = stiction.solve(problem, "newton-bodies", arithmetic="double").outcome
+            self.assertEqual(outcome, "solved" if name == "empty" else "undecided")
+            self.assertTrue(str(stiction.explain(problem)))
+
+    def test_bytes_that_are_no_utf8_are_told_in_errors(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "bytes.json"
+            file.write_bytes(b'{"A": [[1, 0], [0, 1]], "b": [-1, "\xff"], "mu": 1}')
+            with self.assertRaisesRegex(ValueError, "\ufffd|UTF-8"):
+                stiction.load(file)
+
     def test_what_factors_prove_is_certified_by_them(self):
         problem = stiction.Problem(J=J, M=M, w=W, mu=0.5)
         certificate = stiction.certify(problem, "exists")

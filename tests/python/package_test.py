@@ -130,8 +130,19 @@ class SameAsTheProgram(unittest.TestCase):
                 theirs = said("certify", LOOP, "--claim", "cycle", "-o", out, *flags)
                 ours = stiction.certify(problem, "cycle", **chosen)
                 self.assertEqual(ours.text if ours else None, out.read_text() if out.exists() else None, chosen)
-                self.assertEqual(ours.kind if ours else "undecided", theirs["claim"], chosen)
+                self.assertEqual(ours.kind if ours else None, theirs["claim"], chosen)
+                decided = stiction.decide(problem, "cycle", **chosen)
+                self.assertEqual((decided.claim, decided.state, decided.reason, decided.policies),
+                                 tuple(theirs[key] for key in ("asked", "state", "reason", "policies")), chosen)
+                if ours:
+                    self.assertEqual(len(ours.policies()), theirs["policies"]["certified"])
+                    self.assertIn(f" of {len(ours.policies()):,} ", repr(ours))
         self.assertIsNone(stiction.certify(problem, "cycle", max_drives=2))
+        some = stiction.load(SOURCES / "corpus/two-contact-cycle.json")
+        decided = stiction.decide(some, "cycle", "*")
+        self.assertEqual((decided.state, decided.policies["so"], decided.policies["asked"]), ("disproved", 1320, 1536))
+        self.assertIn("1,320 of 1,536 policies loop", repr(decided))
+        self.assertIn("of 1,320 policies", repr(stiction.certify(some, "cycle", "*")))
 
 
 class Options(unittest.TestCase):

@@ -19,6 +19,7 @@
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/record/counts.h"
+#include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
 #include "reports/animation.h"
 #include "reports/html/html.h"
@@ -761,6 +762,65 @@ TEST_CASE("report: the page says what the store holds, with separated thousands"
   CHECK(Has(page, "the state after 5 drives recurs 6 drives later"));
 }
 
+// A loop in space, with its certificate.
+Finding LoopInBox(const std::string& signature, const char* claim) {
+  Finding finding = Finished(PendingFinding(signature, 0));
+  finding.policy = "slip=redirect";
+  finding.minimized_certificate = fmt::format(
+      R"({{"claim":"{}","witness":{{"policy":"slip=redirect","kind":"box","start":5,"period":48,"word":["a","b"]}}}})",
+      claim);
+  return finding;
+}
+
+TEST_CASE("report: of a loop in space it says what its certificate proves, in page and table") {
+  const Scratch scratch;
+  const std::string boxed =
+      "from the state after 5 drives on it never leaves a box, the same steps every 48 drives";
+  for (const char* claim : {"cycle", "endless"}) {
+    const std::string name = claim, out = "out-" + name;
+    Store store(scratch / name, kIdentity);
+    Record record = SampleRecord();
+    record.signatures = {{"cycle-2c-48d", 1}};
+    store.AddUnit({}, 0, record, {LoopInBox("cycle-2c-48d", claim)});
+    WriteReport(store, scratch / out);
+    const std::string page = PagesOf(scratch / out);
+    const bool endless = name == "endless";
+    CHECK(Has(page, "Under slip=redirect: " + std::string(endless ? "no state recurs: " : "") + boxed +
+                        ", for ever"));
+    CHECK_FALSE(Has(page, "recurs 6 drives later"));
+    CHECK_FALSE(Has(page, "(21 steps in all)"));  // of a run that intervals ended early
+    const auto rows = ReadTable(scratch / out / "findings.csv");
+    CHECK(rows.at(0).at("minimized_steps") == "2");  // those of the certificate
+    CHECK(rows.at(0).at("minimized_proof") == (endless ? "endless" : "box"));
+    const Json listed = ListedIn(ReadText(scratch / out / "findings.html"));
+    CHECK(listed[0]["period"] == 0);  // whose drives a page would say recur
+    CHECK_THAT(SummaryText(store, "s"), Catch::Contains("never leaves a box"));
+  }
+}
+
+TEST_CASE("report: the command of a finding of doubles replays it over doubles") {
+  const Scratch scratch;
+  Store store(scratch / "s", kIdentity);
+  Record record = SampleRecord();
+  record.signatures = {{"wrong-answer-2c", 1}, {"disagreement-ray-solved-2c", 1}, {"ray-2c", 1}};
+  std::vector<Finding> findings;
+  for (const auto& [signature, unused] : record.signatures) {
+    Finding finding = PendingFinding(signature, 0);
+    finding.kind = KindOf(signature);
+    finding.exact_outcome = finding.kind == "ray" ? "ray" : "solved";
+    findings.push_back(finding);
+  }
+  store.AddUnit({}, 0, record, findings);
+  WriteReport(store, scratch / "out");
+  const Json listed = ListedIn(ReadText(scratch / "out/findings.html"));
+  REQUIRE(listed.size() == 3);
+  for (const Json& row : listed) {
+    const bool of_doubles = row["kind"] != "ray";
+    CHECK(Has(row["commands"], "--arithmetic double --step") == of_doubles);
+    CHECK(Has(row["commands"], "--arithmetic double --html") == of_doubles);
+  }
+}
+
 TEST_CASE("report: the table of work names the machines that searched, and nothing else does") {
   const Scratch scratch;
   Store store(scratch / "t", kIdentity);
@@ -1240,7 +1300,8 @@ TEST_CASE("report: sentences say what was found, with its intervals") {
   for (const char* part :
        {"4,000,000 random problems of 4 contacts, from 1 generator, were run under the policy paper: 4,000,000 "
         "runs.",
-        "It does not always end.", "3 of 4,000,000 runs repeat a state, in exact arithmetic or",
+        "It does not always end.",
+        "3 of 4,000,000 runs go on for ever: ", "In the plane they repeat a state, exactly; in space",
         "0.75 [0.154, 2.2] in a million runs", "solved 30 of 30 problems", "The methods disagree.",
         "1 of 23 problems", "Of 10 suspicious runs in doubles 7 are solved in exact arithmetic",
         "Of 800 runs without a suspicion that were repeated exactly, 2 were misjudged (0.25 % [0.0302, "

@@ -11,6 +11,7 @@
 #include "corpus/intervals.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/kinds.h"
+#include "corpus/store/store_totals.h"
 #include "tests/scratch.h"
 #include "tests/two_policies.h"
 
@@ -136,6 +137,35 @@ TEST_CASE("text: the page has exact rates by policy, generator and contacts, and
                "60 0 " +
                RateText(0, 60) + " 0 0 "));
   CHECK_THAT(text, Contains("1/2 60 4 " + RateText(4, 60) + " 0 0 "));
+}
+
+TEST_CASE("text: what doubles do otherwise is no disagreement of exact methods") {
+  const Scratch scratch;
+  Store store(scratch / "s.store", kTextIdentity);
+  Record record = TwoPolicies();
+  for (auto& [contacts, tally] : record.agreement) tally.disagreements = 0;
+  record.signatures = {{"disagreement-ray-solved-2c", 1}, {"disagreement-ray-solved-3c", 1}};
+  store.AddUnit({}, 0, record, {Waiting("disagreement-ray-solved-2c", "disagreement", 0)});
+  const std::string text = Flowing(SummaryText(store, "s.store"));
+  CHECK_THAT(text, Contains("Groups of findings: 2 of disagreement-ray-solved (doubles: ray, exact: solved)."));
+  CHECK_THAT(text, Contains("all contact modes, too: they never disagree with each other."));
+  CHECK_THAT(text, !Contains("0 disagreements"));
+}
+
+TEST_CASE("text: a disagreement of methods that only finishing shows is counted") {
+  const Scratch scratch;
+  Store store(scratch / "s.store", kTextIdentity);
+  Record record = TwoPolicies();
+  for (auto& [contacts, tally] : record.agreement) tally.disagreements = 0;
+  Finding finding = Waiting("ray-2c", "ray", 0);
+  store.AddUnit({}, 0, record, {finding});
+  CHECK(TotalsOf(store).disagreements == 0);
+  finding.kind = kDisagreementOfMethods;
+  finding.done = true;
+  finding.facts = R"({"disagreement":"lemke ended in ray, expected solved"})";
+  store.Finish(finding);
+  CHECK(TotalsOf(store).disagreements == 1);
+  CHECK_THAT(Flowing(SummaryText(store, "s.store")), Contains("too: 1 disagreement."));
 }
 
 TEST_CASE("text: the simplest loop stands in numbers, with commands that replay it") {

@@ -21,7 +21,7 @@
 #include "search/units/regenerate.h"
 #include "search/units/signature.h"
 #include "search/units/unit.h"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 #include "tests/methods.h"
 #include "tests/support.h"
 
@@ -238,18 +238,21 @@ TEST_CASE("alarms: the residual that a wrong answer is told by is that of its fo
     const ExactProblem exact = Regenerate(campaign, unit, 0).problem;
     const auto problem = As<double>(exact);
     for (const double error : {1e-4, 3e-6, 1e-7}) {
-      bool wrong = false;
+      bool wrong = false, near = false;  // so near to the bound that rounding decides
       UnitSolvers solvers;
       solvers.distort = [&](Verdict& verdict, std::span<double> f) {
         if (verdict.outcome != Outcome::kSolved) return;
         Eigen::VectorXd moved(f.size());
         for (std::size_t i = 0; i < f.size(); ++i) moved[i] = f[i] *= 1 + error;
         const Eigen::VectorXd a = problem.A * moved + problem.b;
-        wrong = ErrorOf(problem, moved, a) > 1e-6;
+        LenientUnits<double> units;
+        const double lenient = MeasureLeniently(problem, FrictionLaw::kCoulomb, moved, a, units).error;
+        wrong = lenient > 1e-6;
+        near = std::abs(lenient - 1e-6) < 1e-8;
       };
       CAPTURE(unit, error);
       const UnitResult result = UnitRunner(campaign, solvers).Run(unit);  // sets `wrong`
-      CHECK(OnlyTally(result).wrong == (wrong ? 1 : 0));
+      if (!near) CHECK(OnlyTally(result).wrong == (wrong ? 1 : 0));
     }
   }
 }

@@ -14,7 +14,7 @@
 
 #include "search/generators/generators.h"
 #include "search/units/unit.h"
-#include "solver/problem/errors.h"
+#include "solver/problem/lenient.h"
 #include "solver/published/published.ipp"
 
 namespace stiction {
@@ -38,7 +38,8 @@ double ErrorOfForces(const Small<Rows>& problem, const typename Small<Rows>::Vec
   for (int i = 0; i < Rows; ++i) {
     for (int j = 0; j < Rows; ++j) a[i] += problem.A(i, j) * f[j];
   }
-  return MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
 }
 
 struct LaneComparison {

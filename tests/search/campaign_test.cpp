@@ -12,12 +12,14 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "search/algorithm_version.h"
+#include "tests/scratch.h"
 
 namespace stiction {
 namespace {
@@ -101,6 +103,8 @@ TEST_CASE("campaign: a wrong file is refused with file, place, found and expecte
       {R"({"format": "stiction-campaign", "version": 2})", "version: found 2", "expected 1"},
       {R"({"format": "stiction-campaign", "version": "1"})", "version: found \"1\"", "expected 1"},
       {With(R"("threads": 2)"), "threads: found an unknown key", "expected only format, version, seed"},
+      {With(R"("threads": 2, "seed": -1, "unit_problems": 0)"), "threads: found an unknown key",
+       "; seed: found -1, expected an integer from 0 to 9223372036854775807; unit_problems: found 0"},
       {With(R"("seed": -1)"), "seed: found -1", "expected an integer from 0 to 9223372036854775807"},
       {With(R"("seed": 1.0)"), "seed: found 1.0", "expected an integer from 0"},
       {With(R"("seed": "1")"), "seed: found \"1\"", "expected an integer from 0"},
@@ -245,6 +249,59 @@ TEST_CASE("campaign: a store from before lots for complete driving goes on as it
   CHECK(IdentityOf(before).definition == identity.definition);
 }
 
+TEST_CASE(
+    "campaign: the first units try every family, and each round has twice as many problems as the one before") {
+  Campaign campaign = AsBegun(Read(With(R"("generators": ["integers", "psd"], "contacts": [2, 3, 4])")));
+  const std::vector<Task> schedule = Schedule(campaign);
+  REQUIRE(FamilyCount(campaign) == 6);
+  std::set<std::pair<GeneratorId, int>> families;
+  std::int64_t problems = 0;
+  for (std::int64_t unit = 0; unit < FamilyCount(campaign); ++unit) {
+    const Task task = TaskOf(schedule, unit);
+    families.insert({task.generator, task.contacts});
+    problems += UnitProblems(campaign, task, unit);
+  }
+  CHECK(families.size() == 6);
+  CHECK(problems == 6);
+  CHECK(UnitProblems(campaign, TaskOf(schedule, 6), 6) == 2);
+  CHECK(UnitProblems(campaign, TaskOf(schedule, 17), 17) == 4);
+  // The last is as it would be without.
+  const Task two = {GeneratorId::kPsd, 2}, four = {GeneratorId::kPsd, 4};
+  for (const std::int64_t unit : {6 * 14, 1'000'000, std::numeric_limits<int>::max()}) {
+    CHECK(UnitProblems(campaign, two, unit) == 10000);
+    CHECK(UnitProblems(campaign, four, unit) == 2500);
+  }
+  campaign.first_unit_problems = 10000;
+  CHECK(UnitProblems(campaign, two, 0) == 10000);
+  CHECK(UnitProblems(campaign, four, 0) == 2500);
+}
+
+TEST_CASE("campaign: units for a number of problems are the least that hold so many, however units begin") {
+  for (const std::int64_t first : {0, 1, 7, 10000}) {
+    Campaign campaign = Read(With(R"("generators": ["integers", "psd"], "contacts": [1, 2, 4])"));
+    campaign.first_unit_problems = first;
+    const std::vector<Task> schedule = Schedule(campaign);
+    for (const std::int64_t asked : {1, 2, 6, 100, 9999, 10001, 123456, 5000000}) {
+      CAPTURE(first, asked);
+      std::int64_t units = 0, held = 0;
+      for (; held < asked; ++units) held += UnitProblems(campaign, TaskOf(schedule, units), units);
+      CHECK(UnitsFor(campaign, asked) == units);
+    }
+  }
+}
+
+TEST_CASE("campaign: a store from before units began small goes on as it began") {
+  const testing::Scratch folder;
+  const Campaign asked = Read(With(R"("generators": ["psd"])"));
+  CHECK(AsBegunIn(folder / "none.store", asked).first_unit_problems == 1);
+  { const Store store(folder / "old.store", IdentityOf(asked)); }
+  CHECK(AsBegunIn(folder / "old.store", asked) == asked);
+  { const Store store(folder / "new.store", IdentityOf(AsBegun(asked))); }
+  CHECK(AsBegunIn(folder / "new.store", asked) == AsBegun(asked));
+  CHECK(CampaignOf(IdentityOf(asked), "old").first_unit_problems == 0);
+  CHECK(CampaignOf(IdentityOf(AsBegun(asked)), "new") == AsBegun(asked));
+}
+
 TEST_CASE("campaign: certified signs are for the plane, without an objective") {
   const auto refused = [](const std::string& members, const char* says) {
     CHECK_THROWS_WITH(RequireConsistent(Read(With(members))), Contains(says));
@@ -318,7 +375,7 @@ TEST_CASE("campaign: every generator and size has its turn in the first round") 
 TEST_CASE("campaign: a unit has half as many problems for each contact beyond two, at least one") {
   Campaign campaign;
   campaign.unit_problems = 100;
-  const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}); };
+  const auto problems = [&](int contacts) { return UnitProblems(campaign, {GeneratorId::kPsd, contacts}, 0); };
   CHECK(
       (problems(1) == 100 && problems(2) == 100 && problems(3) == 50 && problems(4) == 25 && problems(8) == 1));
   campaign.unit_problems = 1;
@@ -334,7 +391,7 @@ TEST_CASE("campaign: units for a number of problems are the fewest that hold it"
   const auto held = [&](std::int64_t units) {
     std::int64_t problems = 0;
     for (std::int64_t unit = 0; unit < units; ++unit)
-      problems += UnitProblems(campaign, schedule[static_cast<std::size_t>(unit) % schedule.size()]);
+      problems += UnitProblems(campaign, TaskOf(schedule, unit), unit);
     return problems;
   };
   for (std::int64_t problems = 1; problems < 900; ++problems) {

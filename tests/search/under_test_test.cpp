@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "search/campaign.h"
+#include "search/under_test/examine.h"
 #include "search/under_test/judge_forces.h"
 #include "search/under_test/reproducer.h"
 #include "search/under_test/simple_scene.h"
@@ -100,6 +102,22 @@ TEST_CASE("under test: friction at its limit in space that is not against the sl
   CHECK(miss(1, -0.5, 0) == "");
   CHECK(miss(1, 0, -0.5) == "friction-askew");
   CHECK(miss(1, -0.6, 0) == "friction-beyond-limit");
+}
+
+TEST_CASE("under test: what is small beside a jam is not accused, and not called solved either") {
+  ContactProblem<double> problem;
+  problem.contacts.assign(2, {ContactKind::kFrictionless, 0, {}});
+  problem.A = (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+  problem.b = Eigen::Vector2d(-1, 1);
+  const auto judged = [&problem](double first) {
+    return JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 100000), Eigen::Vector2d(first, 10000));
+  };
+  CHECK(judged(10001).miss.empty());
+  CHECK_FALSE(judged(10001).is_neither);
+  CHECK(judged(10001.0001).miss.empty());  // a = (1e-4, -1e-4)
+  CHECK(judged(10001.0001).is_neither);
+  CHECK_FALSE(judged(10003).miss.empty());
+  CHECK_FALSE(judged(10003).is_neither);
 }
 
 TEST_CASE("under test: friction where nothing acts along the contact is held to what its normal bears") {
@@ -210,14 +228,49 @@ std::filesystem::path Sleeper(const testing::Scratch& folder, bool for_ever) {
 
 TEST_CASE("under test: what waits is asked once more before it is said to hang") {
   const ContactProblem<double> problem = Idle();
-  constexpr double kSeconds = 0.01;  // 0.6 on the clock
+  constexpr double kSeconds = 0.1;  // twice half a second on the clock
   for (const bool for_ever : {false, true}) {
     const testing::Scratch folder;
     SolverProcess process({Sleeper(folder, for_ever).string()});
     const SolverReply reply = process.Solve(problem, kSeconds);
     CHECK((reply.end == SolverEnd::kHung) == for_ever);
     CHECK(reply.how == (for_ever ? kAsleep : ""));
+    // It costs its limit and no more: the time in which it sleeps counts as what it takes.
+    if (for_ever) CHECK(process.Seconds() >= kSolverPatience * kSeconds);
   }
+}
+
+TEST_CASE("under test: a call that the search stops ends at once, and is no answer, no crash and no hang") {
+  const testing::Scratch folder;
+  bool stopped = false;
+  SolverProcess process({Sleeper(folder, true).string()}, {.stopped = [&stopped] { return stopped; }});
+  stopped = true;
+  CHECK(process.Solve(Idle(), 1e6).end == SolverEnd::kStopped);
+  CHECK(process.Solve(Idle(), 1e6).end == SolverEnd::kStopped);  // nor is it started anew
+  stopped = false;
+  CHECK(process.Solve(Idle(), 0.01).end == SolverEnd::kHung);
+}
+
+TEST_CASE("under test: memory that grows steadily leaks, and what fills up or is collected late does not") {
+  constexpr std::int64_t kCalls = 8000, kLeast = 1 << 16;
+  const auto growth = [](auto memory) {
+    MemoryWindows windows(kCalls, kLeast);
+    for (std::int64_t call = 1; call <= kCalls; ++call) windows.Add(call, memory(call));
+    return windows.Growth();
+  };
+  constexpr std::int64_t kFirst = 50'000'000;
+  CHECK(growth([](std::int64_t call) { return kFirst + 48 * call; }) == 48);
+  CHECK(growth([](std::int64_t call) { return kFirst + 4096 * (64 * call / 4096); }) > 60);  // page by page
+  CHECK(growth([](std::int64_t call) { return kFirst + 4 * call; }) == 0);                   // hardly anything
+  CHECK(growth([](std::int64_t) { return kFirst; }) == 0);
+  CHECK(growth([](std::int64_t call) { return kFirst + 5000 * std::min<std::int64_t>(call, 1200); }) == 0);
+  CHECK(growth([](std::int64_t call) {
+          return kFirst + 1'000'000 * std::bit_width(static_cast<std::uint64_t>(call));
+        }) == 0);
+  CHECK(growth([](std::int64_t call) { return kFirst + std::llround(1e5 * std::sqrt(call)); }) == 0);
+  CHECK(growth([](std::int64_t call) { return kFirst + 5000 * (call % 3000); }) == 0);  // it falls now and then
+  CHECK(growth([](std::int64_t call) { return call == 2000 ? 0 : kFirst + 48 * call; }) ==
+        0);  // a process ended
 }
 
 TEST_CASE("under test: a library runs in a process of this program, whatever the version behind its name") {
@@ -234,8 +287,18 @@ TEST_CASE("under test: what lacks forces or has too many is no answer, and a lac
   CHECK(reply(R"({"solved": true, "f": [0]})").end == SolverEnd::kAnswered);
   CHECK(reply(R"({"solved": false})").end == SolverEnd::kAnswered);
   CHECK(std::isnan(reply(R"({"solved": true, "f": [-Infinity]})").f[0]));
+  for (const char* const number : {"1e999", "-1E+400", "1e308000000000"}) {
+    CAPTURE(number);
+    const SolverReply beyond = reply(fmt::format(R"({{"solved": true, "f": [{}]}})", number));
+    CHECK(beyond.end == SolverEnd::kAnswered);
+    CHECK(std::isnan(beyond.f[0]));
+    CHECK_FALSE(beyond.is_in_range);
+  }
+  const SolverReply tiny = reply(R"({"solved": true, "f": [1e-999], "NaN": "1e999 NaN \\" 1e999"})");
+  CHECK((tiny.end == SolverEnd::kAnswered && tiny.is_in_range && tiny.f[0] == 0));
   for (const char* const said :
-       {R"({"solved": true})", R"({"solved": true, "f": [0, 0]})", R"({"solved": true, "f": []})", "no"}) {
+       {R"({"solved": true})", R"({"solved": true, "f": [0, 0]})", R"({"solved": true, "f": []})",
+        R"({"solved": true, "f": ["0"]})", R"({"solved": true, "f": [true]})", "no"}) {
     CAPTURE(said);
     CHECK(reply(said).how == "garbled");
   }
@@ -248,6 +311,36 @@ TEST_CASE("under test: what ends after it took most of its memory is out of it")
   CHECK(greedy.Solve(Idle(), 10).end == SolverEnd::kAnswered);
   CHECK(greedy.Solve(Idle(), 10).how == "out-of-memory");
   CHECK(InPython(folder, "sys.exit(1)").Solve(Idle(), 10).how == "exit-1");
+}
+
+TEST_CASE(
+    "under test: what writes too much, closes its output or does not greet again crashes, and is named so") {
+  const testing::Scratch folder;
+  const auto how = [&folder](const std::string& loop, int calls = 1) {
+    SolverProcess process = InPython(folder, loop);
+    std::string said;
+    for (int call = 0; call < calls; ++call) said = process.Solve(Idle(), 10).how;
+    return said;
+  };
+  const std::string answer = "print('{\"solved\": true, \"f\": [0]}', flush=True)";
+  CHECK(how("sys.stdout.write('x' * (1 << 22)); sys.stdout.flush()") == "flood");
+  CHECK(how("print('x' * (1 << 22), flush=True)") == "flood");
+  CHECK(how("os.write(1, b'{\"solved\": true, \"f\": [0]}\\n' * 2)", 2) == "unasked");
+  CHECK(how("os.close(0); os.close(1); __import__('time').sleep(1000)") == "closed");
+  CHECK(how("os.kill(os.getppid(), 9); __import__('time').sleep(1000)") == "killed-its-guard");
+  CHECK(how("sys.exit(0) if os.fork() else __import__('time').sleep(1000)") ==
+        "exit-0");  // its child holds the output
+  const std::string file = (folder / "greeted").string();
+  CHECK(how("sys.exit(1); #\nif 0: pass", 1) == "exit-1");
+  std::ofstream(folder / "again.py")
+      << "#!/usr/bin/env python3\nimport os, sys\nif os.path.exists('" << file << "'): sys.exit(1)\nopen('"
+      << file
+      << "', 'w')\nprint('{\"protocol\": 1, \"solver\": \"x\", \"version\": \"1\", "
+         "\"law\": \"box\", \"accuracy\": 1}', flush=True)\nsys.stdin.readline()\n";
+  std::filesystem::permissions(folder / "again.py", std::filesystem::perms::owner_all);
+  SolverProcess again({(folder / "again.py").string()});
+  CHECK(again.Solve(Idle(), 10).how == "exit-0");
+  CHECK(again.Solve(Idle(), 10).how == "no-greeting");
 }
 
 TEST_CASE("under test: a solver is the same as long as it is tested, and states an accuracy") {

@@ -132,7 +132,7 @@ TEST_CASE("unit: its tallies stand under its generator, size and policies") {
        {std::int64_t{0}, std::int64_t{8}, static_cast<std::int64_t>(schedule.size()) + 3}) {
     const Task task = schedule[static_cast<std::size_t>(unit) % schedule.size()];
     const UnitResult result = runner.Run(unit);
-    CHECK(result.problems == UnitProblems(campaign, task));
+    CHECK(result.problems == UnitProblems(campaign, task, unit));
     REQUIRE(result.record.tallies.size() == 2);
     for (const Policy& policy : campaign.policies) {
       const TallyKey key{std::string(Row(task.generator).name), task.contacts, PolicyName(policy)};

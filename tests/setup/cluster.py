@@ -24,7 +24,7 @@ ARRAYS = (1, 4, 16)  # shards; those of the last are hurt
 PROBLEMS = 300_000
 ENDLESS = 10**12
 CAMPAIGN = {"format": "stiction-campaign", "version": 1, "seed": 4, "generators": ["small", "duplicates"],
-            "contacts": [2, 3], "unit_problems": 2000}
+            "contacts": [2, 3], "first_unit_problems": 2000, "unit_problems": 2000}
 PATIENCE = 600  # seconds, for what takes a few where nothing else runs
 # Stands for the program: the first attempts of two shards go on until somebody ends them.
 ENDURING = """#!/bin/bash

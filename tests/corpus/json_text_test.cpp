@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "corpus/json.h"
+#include "solver/problem/check.h"
+
+namespace stiction {
+namespace {
+
+using Catch::Matchers::Contains;
+
+constexpr double kEndless = std::numeric_limits<double>::infinity(),
+                 kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST_CASE("JSON text: bytes that are no UTF-8 become U+FFFD, in texts and in keys") {
+  const std::string mark = "\xEF\xBF\xBD";
+  CHECK(JsonText(Json("a\xFFz")) == "\"a" + mark + "z\"");
+  CHECK(JsonText(Json{{"a\xFE", {1, "\xC3"}}}) == "{\"a" + mark + "\":[1,\"" + mark + "\"]}");
+  CHECK(JsonText(Json("\xC3\xA9 \xE2\x82\xAC")) == "\"\xC3\xA9 \xE2\x82\xAC\"");  // which is UTF-8
+  for (int byte = 0; byte < 256; ++byte) {
+    const std::string text = {'x', static_cast<char>(byte), '"', static_cast<char>(255 - byte)};
+    CHECK(Json::accept(JsonText(Json{{text, {text, {{text, nullptr}}}}}, 2)));
+  }
+}
+
+TEST_CASE("JSON text: numbers that are not finite become words, at any depth") {
+  const Json value = {1.5, kEndless, {{"x", -kEndless}, {"y", {kNan, -kNan}}}};
+  CHECK(JsonText(value) == R"([1.5,"inf",{"x":"-inf","y":["nan","nan"]}])");
+  CHECK(JsonText(kEndless) == "\"inf\"");
+  CHECK(value[1].is_number());  // and the value stays what it is
+}
+
+TEST_CASE("JSON text: what is read again is not written where its text says something else") {
+  CHECK_NOTHROW(RequireWritable(Json{{"x", {1, 0.1, -5e-324, "\xC3\xA9"}}}));
+  CHECK_THROWS_AS(RequireWritable(Json{{"x", {kEndless}}}), InternalError);
+  CHECK_THROWS_AS(RequireWritable(Json{{"\xFF", 1}}), InternalError);
+  CHECK(IsUtf8("\xC3\xA9"));
+  CHECK(!IsUtf8(Json{{"x", {"\xA9"}}}));
+}
+
+TEST_CASE("JSON: a number that is not 0 and has no double but 0, or none at all, is refused with its place") {
+  for (const std::string literal :
+       {"1e-400", "-1e-400", "2.4e-324", "0.001e-330", "1e-99999999999999999999", "1E-5000"}) {
+    CAPTURE(literal);
+    CHECK_THROWS_WITH(ParseJson(R"({"x": [0, )" + literal + "]}", "f"),
+                      Contains("f: x[1]: found " + literal + ", which is no double but 0") &&
+                          Contains("as a string, \"" + literal + "\", it is exact"));
+  }
+  for (const std::string literal : {"1e400", "-1e309", "1e99999999999999999999"}) {
+    CAPTURE(literal);
+    CHECK_THROWS_WITH(ParseJson(R"({"x": [0, )" + literal + "]}", "f"),
+                      Contains("f: x[1]: found " + literal + ", expected a number in the range of doubles"));
+  }
+  for (const std::string literal :
+       {"0", "-0.0", "0e-400", "0.000e-99999", "0e999", "5e-324", "2.5e-324", "1.7e308"})
+    CHECK_NOTHROW(ParseJson("[" + literal + "]", "f"));
+}
+
+}  // namespace
+}  // namespace stiction
