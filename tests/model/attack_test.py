@@ -5,7 +5,6 @@
 """
 
 import functools
-import os
 import random
 import subprocess
 import sys
@@ -15,11 +14,10 @@ from fractions import Fraction
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 
 import attack  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[2]
-program = ""  # set by main()
+import cli  # noqa: E402
 
 STATIC = {"kind": "static", "mu": .5}
 SLIDING = {"kind": "sliding", "mu": .5, "slip": "1"}
@@ -165,7 +163,7 @@ class Runs(unittest.TestCase):
 
     def test_nothing_is_found_in_few_problems(self):
         with tempfile.TemporaryDirectory() as folder:
-            call = [sys.executable, "-B", str(ROOT / "tests/model/attack.py"), program, "--problems", "12"]
+            call = [sys.executable, "-B", str(cli.ROOT / "tests/model/attack.py"), cli.program, "--problems", "12"]
             done = subprocess.run([*call, "--seed", "1", "--keep", folder], capture_output=True, text=True, timeout=600)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual(list(Path(folder).iterdir()), [])
@@ -173,16 +171,5 @@ class Runs(unittest.TestCase):
         self.assertIn("wrong: 0\n", done.stdout)
 
 
-def main():
-    global program, ROOT
-    if len(sys.argv) < 2:
-        sys.exit(f"usage: {sys.argv[0]} PATH_TO_STICTION")
-    program = os.path.abspath(sys.argv[1])
-    rest = sys.argv[2:]
-    if rest and os.path.isdir(rest[0]):
-        ROOT = Path(rest.pop(0)).resolve()
-    unittest.main(argv=[sys.argv[0], *rest])
-
-
 if __name__ == "__main__":
-    main()
+    cli.main()
