@@ -78,7 +78,10 @@ def make(stiction, folder, claim, asked, described):
     file.write_text(json.dumps(described))
     command = [stiction, "certify", file, "--claim", asked, "-o", "-"]
     command += ["--policy", "*"] if claim in OF_RUNS else []
-    certificate = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    done = subprocess.run(command, capture_output=True)
+    # 1: the certificate is of the policies that loop, which are not all.
+    assert done.returncode in ((0, 1) if claim in OF_RUNS else (0,)), (command, done.stderr)
+    certificate = json.loads(done.stdout)
     assert certificate["claim"] == claim, (certificate["claim"], claim)
     if claim in OF_RUNS:
         runs = certificate["witness"]["runs"]

@@ -5,9 +5,10 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 
-import {framesOf} from '../../reports/web/src/frames.js';
-
 import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
+
+// From the copy of the sources that has their packages.
+const {framesOf} = await import(`${process.env.PACKAGES}/src/frames.js`);
 
 const {PROGRAM} = process.env;
 const names = ['plane', 'space', 'large'];
