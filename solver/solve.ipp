@@ -258,7 +258,7 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
   // Of forces so large the rounding alone moves rows by what acts on them: nothing tells them from those that
   // grow without end where there is no solution.
-  constexpr double kLent = 1.0 / 16;
+  constexpr double kLent = 1.0 / 4;
   const bool is_lost = is_finite && Pressing(problem, answer.f) * gate.tau > kLent;
   const bool passes = is_finite && !is_lost && answer.errors->Largest() <= bound;
   if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits

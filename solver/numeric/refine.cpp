@@ -2,6 +2,7 @@
 #include "solver/numeric/refine.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,6 +25,8 @@ constexpr int kRounds = 4;          // of modes that change
 constexpr int kSteps = 4;           // of Newton's method, for given modes
 constexpr double kShift = 1e-9;     // beside diagonals of about 1
 constexpr double kHopeless = 1e-3;  // backward errors that no noise explains
+constexpr double kTouches = 1e-9;   // of all that acts at a contact without force: beyond, it separates
+constexpr double kRank = 1e-11;     // of the largest pivot: what is smaller is rounding
 
 // Onto the limit mu fN, which changes less by fN where mu > 1.
 void Limit(const Contact<double>& contact, int tangents, double* fN, double* fF) {
@@ -79,7 +82,7 @@ class Refinement {
     best_ = {f, Errors<double>{}};
     best_.errors.acceleration = std::numeric_limits<double>::infinity();
     FindModes(f);
-    if (!Solve(f, kShift, /*from_zero=*/true) || !Keep(f) || !Passes()) return given;
+    if (!Solve(f, Way::kShifted, /*from_zero=*/true) || !Keep(f) || !Passes()) return given;
     for (int i = 0; i < f.size(); ++i) best_.f[i] = std::ldexp(best_.f[i], scale_.f[i]);
     return best_;
   }
@@ -88,11 +91,11 @@ class Refinement {
   Refined Improve(RefinedVector f, const Errors<double>& errors) {
     for (int i = 0; i < f.size(); ++i) f[i] = std::ldexp(f[i], -scale_.f[i]);
     best_ = {std::move(f), errors};
-    for (const double shift : {0.0, kShift}) {
+    for (const Way way : {Way::kElimination, Way::kShifted, Way::kLeastSquares}) {
       RefinedVector now = best_.f;
       for (int round = 0; round < kRounds && !Passes(); ++round) {
         FindModes(now);
-        if (!Solve(now, shift) || !Keep(now)) break;
+        if (!Solve(now, way) || !Keep(now)) break;
       }
       if (Passes()) break;
     }
@@ -102,6 +105,9 @@ class Refinement {
   }
 
  private:
+  // How equations are solved. Elimination, of M or of M + shift I; or the least change by least squares, which
+  // also keeps contacts without force where they touch.
+  enum class Way : std::uint8_t { kElimination, kShifted, kLeastSquares };
   enum class Equation : std::uint8_t { kAcceleration, kLimit, kDirection };
   // An unknown force and the equation that goes with it.
   struct Unknown {
@@ -140,8 +146,14 @@ class Refinement {
     return length > 0 ? std::array<double, 2>{d[0] / length, d[1] / length} : std::array<double, 2>{0, 0};
   }
 
-  void ListUnknowns(const RefinedVector& f) {
+  // Whether no more than noise moves the contact.
+  bool Touches(int row) const {
+    return std::abs(meter_.a()[row]) <= kTouches * (std::abs(problem_.b[row]) + meter_.meter().size(row));
+  }
+
+  void ListUnknowns(const RefinedVector& f, Way way) {
     unknowns_.clear();
+    idle_.clear();
     directions_.clear();
     row_of_.clear();
     int row = 0;
@@ -151,7 +163,9 @@ class Refinement {
       row_of_.push_back(row);
       directions_.push_back({0, 0});
       const bool bilateral = contact.kind == ContactKind::kBilateral;
-      const bool presses = f[row] > 0 || meter_.a()[row] < 0;
+      const bool least = way == Way::kLeastSquares;
+      const bool presses = f[row] > 0 || (!least && meter_.a()[row] < 0);
+      if (least && !bilateral && !(f[row] > 0) && Touches(row)) idle_.push_back(row);
       if (bilateral || (modes_[i] != Motion::kSeparates && presses)) {
         unknowns_.push_back({row, i, Equation::kAcceleration});
         if (contact.kind == ContactKind::kSliding) {
@@ -186,15 +200,22 @@ class Refinement {
     return response;
   }
 
-  void Assemble(const RefinedVector& f, double shift) {
-    const int size = static_cast<int>(unknowns_.size());
-    M_.resize(size, size);
+  void Assemble(const RefinedVector& f, Way way) {
+    const int size = static_cast<int>(unknowns_.size()), idle = static_cast<int>(idle_.size());
+    M_.resize(size + idle, size);
     for (int j = 0; j < size; ++j) {
       const RefinedVector response = ResponseTo(unknowns_[j]);
       for (int i = 0; i < size; ++i) M_(i, j) = Entry(unknowns_[i], unknowns_[j], f, response);
+      for (int i = 0; i < idle; ++i) M_(size + i, j) = response[idle_[i]];
     }
-    for (int i = 0; i < size; ++i)
-      if (unknowns_[i].equation == Equation::kAcceleration) M_(i, i) += shift;
+    for (int i = 0; i < size && way == Way::kShifted; ++i)
+      if (unknowns_[i].equation == Equation::kAcceleration) M_(i, i) += kShift;
+    if (way == Way::kLeastSquares) {
+      least_.setThreshold(kRank);
+      least_.compute(M_);
+    } else {
+      lu_.compute(M_);
+    }
   }
 
   double Entry(const Unknown& of, const Unknown& by, const RefinedVector& f,
@@ -218,8 +239,9 @@ class Refinement {
 
   RefinedVector Residual(const RefinedVector& f) const {
     const RefinedVector& a = meter_.a();
-    RefinedVector residual(unknowns_.size());
-    for (int i = 0; i < residual.size(); ++i) {
+    RefinedVector residual(unknowns_.size() + idle_.size());
+    for (std::size_t i = 0; i < idle_.size(); ++i) residual[unknowns_.size() + i] = a[idle_[i]];
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const Unknown& unknown = unknowns_[i];
       const int normal = row_of_[unknown.contact], first = normal + 1;
       const std::array<double, 2>& d = directions_[unknown.contact];
@@ -252,15 +274,22 @@ class Refinement {
 
   // M times the change, M without its shift: nothing is left of what M does not feel. There the shift makes
   // large forces of rounding.
-  RefinedVector WithoutShift(RefinedVector residual, const RefinedVector& change, double shift) const {
+  RefinedVector WithoutShift(RefinedVector residual, const RefinedVector& change) const {
     for (int i = 0; i < residual.size(); ++i)
-      if (unknowns_[i].equation == Equation::kAcceleration) residual[i] -= shift * change[i];
+      if (unknowns_[i].equation == Equation::kAcceleration) residual[i] -= kShift * change[i];
     return residual;
   }
 
+  RefinedVector ChangeFor(const RefinedVector& residual, Way way) const {
+    if (way == Way::kLeastSquares) return least_.solve(residual);
+    RefinedVector change = lu_.solve(residual);
+    if (way == Way::kShifted) change = lu_.solve(WithoutShift(residual, change));
+    return change;
+  }
+
   // Steps from f, by the modes that were found of it. False if they lead nowhere.
-  bool Solve(RefinedVector& f, double shift, bool from_zero = false) {
-    ListUnknowns(f);
+  bool Solve(RefinedVector& f, Way way, bool from_zero = false) {
+    ListUnknowns(f, way);
     if (unknowns_.empty()) return true;
     if (static_cast<int>(unknowns_.size()) > kMostRows) return false;
     const bool turns = problem_.dimension == 3;  // the equations change with the direction of friction
@@ -271,12 +300,9 @@ class Refinement {
       meter_.Accelerate(problem_, f, Gate{0, 0});  // every row with twice the digits
       if (step == 0 || turns) {
         if (step > 0) Turn(f);
-        Assemble(f, shift);
-        lu_.compute(M_);
+        Assemble(f, way);
       }
-      const RefinedVector residual = Residual(f);
-      RefinedVector change = lu_.solve(residual);
-      if (shift > 0) change = lu_.solve(WithoutShift(residual, change, shift));
+      const RefinedVector change = ChangeFor(Residual(f), way);
       if (!change.allFinite()) return false;
       for (std::size_t i = 0; i < unknowns_.size(); ++i) f[unknowns_[i].row] -= change[i];
       Follow(f);
@@ -291,10 +317,12 @@ class Refinement {
   GateMeter<double> meter_;
   std::vector<Motion> modes_;
   std::vector<Unknown> unknowns_;
+  std::vector<int> idle_;                          // normal rows of contacts that touch without force
   std::vector<std::array<double, 2>> directions_;  // by contact: of friction at its limit
   std::vector<int> row_of_;
   Eigen::MatrixXd M_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_;
   Refined best_;
 };
 

@@ -12,7 +12,8 @@
 //   Higham,
 //            Accuracy and Stability of Numerical Algorithms, 2002, 12.2), then clean. In the plane one step
 //            solves the equations of the modes. Where they are singular, as of forces that are not unique, M +
-//            shift I is factored and the steps repeated.
+//            shift I is factored and the steps repeated; last, where contacts touch without force, by the least
+//            change by least squares that keeps them there too (orthogonal factorization).
 //
 // Forces that pass, and press against each other by far more than b asks for, as a method may leave them where
 // mu is large, are replaced by about the least ones of the same modes where these pass too: a jam lends its
