@@ -26,6 +26,7 @@ constexpr int kSteps = 4;           // of Newton's method, for given modes
 constexpr double kShift = 1e-9;     // beside diagonals of about 1
 constexpr double kHopeless = 1e-3;  // backward errors that no noise explains
 constexpr double kTouches = 1e-9;   // of all that acts at a contact without force: beyond, it separates
+constexpr double kNoise = 1024;     // taus of the largest force: less is nothing, if need be
 constexpr double kRank = 1e-11;     // of the largest pivot: what is smaller is rounding
 
 // Onto the limit mu fN, which changes less by fN where mu > 1.
@@ -149,6 +150,17 @@ class Refinement {
   // Whether no more than noise moves the contact.
   bool Touches(int row) const {
     return std::abs(meter_.a()[row]) <= kTouches * (std::abs(problem_.b[row]) + meter_.meter().size(row));
+  }
+
+  // Contacts whose normal force is noise bear nothing.
+  void DropNoise(RefinedVector& f) const {
+    const double noise = kNoise * gate_.tau * f.lpNorm<Eigen::Infinity>();
+    int row = 0;
+    for (const auto& contact : problem_.contacts) {
+      const int rows = RowsOf(contact, problem_.dimension);
+      if (contact.kind != ContactKind::kBilateral && f[row] <= noise) f.segment(row, rows).setZero();
+      row += rows;
+    }
   }
 
   void ListUnknowns(const RefinedVector& f, Way way) {
@@ -289,6 +301,7 @@ class Refinement {
 
   // Steps from f, by the modes that were found of it. False if they lead nowhere.
   bool Solve(RefinedVector& f, Way way, bool from_zero = false) {
+    if (way == Way::kLeastSquares) DropNoise(f);
     ListUnknowns(f, way);
     if (unknowns_.empty()) return true;
     if (static_cast<int>(unknowns_.size()) > kMostRows) return false;
