@@ -13,7 +13,7 @@ namespace {
 using Dense = Eigen::MatrixXd;
 
 // Of one pattern, three entries a column: those of one place are `ratio` times as large as the others.
-SparseLu::Matrix Drawn(std::mt19937& random, int large = 0, double ratio = 10) {
+SparseLu::Matrix DrawnMatrix(std::mt19937& random, int large = 0, double ratio = 10) {
   constexpr int kSize = 30;
   std::uniform_real_distribution<double> number(0.5, 1);
   SparseLu::Matrix K(kSize, kSize);
@@ -33,9 +33,9 @@ double ErrorOf(const SparseLu::Matrix& K, const Eigen::VectorXd& x, const Eigen:
 TEST_CASE("sparse lu: pivots of one matrix serve others of its pattern") {
   std::mt19937 random(1);
   SparseLu lu;
-  lu.Order(Drawn(random));
+  lu.Order(DrawnMatrix(random));
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const SparseLu::Matrix K = Drawn(random);
+    const SparseLu::Matrix K = DrawnMatrix(random);
     const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(K.rows(), -1, 2);
     REQUIRE(lu.Factor(K));
     CHECK(ErrorOf(K, lu.Solve(K, y), y) < 1e-13);
@@ -45,10 +45,10 @@ TEST_CASE("sparse lu: pivots of one matrix serve others of its pattern") {
 TEST_CASE("sparse lu: pivots that do not suit are chosen anew") {
   std::mt19937 random(2);
   SparseLu lu;
-  lu.Order(Drawn(random));
+  lu.Order(DrawnMatrix(random));
   for (const int large : {0, 1, 2, 0}) {
     INFO(large);
-    const SparseLu::Matrix K = Drawn(random, large, 1e13);
+    const SparseLu::Matrix K = DrawnMatrix(random, large, 1e13);
     const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(K.rows(), -1, 2);
     REQUIRE(lu.Factor(K));
     CHECK(ErrorOf(K, lu.Solve(K, y), y) < 1e-10);
@@ -58,7 +58,7 @@ TEST_CASE("sparse lu: pivots that do not suit are chosen anew") {
 TEST_CASE("sparse lu: answers do not depend on matrices before, once pivots are forgotten") {
   std::mt19937 random(3);
   SparseLu used;
-  const SparseLu::Matrix first = Drawn(random, 1, 1e13), second = Drawn(random);
+  const SparseLu::Matrix first = DrawnMatrix(random, 1, 1e13), second = DrawnMatrix(random);
   const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(first.rows(), -1, 2);
   used.Order(first);
   REQUIRE(used.Factor(first));
@@ -72,7 +72,7 @@ TEST_CASE("sparse lu: answers do not depend on matrices before, once pivots are 
 
 TEST_CASE("sparse lu: a singular matrix has no factors") {
   std::mt19937 random(4);
-  SparseLu::Matrix K = Drawn(random);
+  SparseLu::Matrix K = DrawnMatrix(random);
   for (SparseLu::Matrix::InnerIterator of(K, 3); of; ++of) of.valueRef() = 0;
   SparseLu lu;
   CHECK_FALSE(lu.Factor(K));  // nothing is ordered
