@@ -38,6 +38,8 @@ inline constexpr std::array kSuites = {
           "in all (default 20000)", kMaxContacts, ""},
     Suite{"gate", "whether all that is called solved is, and what is left undecided, along dials",
           "of a setting of a dial (default 25)", kMaxContacts, ""},
+    Suite{"gate-cost", "what it costs to judge forces, beside LU of the same A",
+          "at most, of each number of contacts (default 400)", 100, ""},
     Suite{"methods", "the methods side by side: times", "of each number of contacts (default 800)", 30, ""},
     Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts",
           "at most, of each number of contacts (default 48)", kMostOfAnySuite, ""},
@@ -83,6 +85,7 @@ int BenchTrade(const BenchOptions& options);         // ladder.cpp: exit 1 where
 int BenchExtremes(const BenchOptions& options);      // likewise
 int BenchSilent(const BenchOptions& options);        // gate.cpp: exit 1 where an answer is wrong
 int BenchGate(const BenchOptions& options);          // likewise
+int BenchGateCost(const BenchOptions& options);      // gate_cost.cpp
 int BenchMethods(const BenchOptions& options);       // methods.cpp: exit 1 where methods contradict each other
 int BenchFrictionless(const BenchOptions& options);  // likewise
 int BenchScenes(const BenchOptions& options);        // scenes.cpp

@@ -22,10 +22,9 @@ using namespace stiction;
 
 // By the name of a suite that stiction-bench measures itself.
 const std::map<std::string_view, int (*)(const BenchOptions&)> kFunctions = {
-    {"search", BenchSearch},     {"trade", BenchTrade},
-    {"extremes", BenchExtremes}, {"silent", BenchSilent},
-    {"gate", BenchGate},         {"methods", BenchMethods},
-    {"scenes", BenchScenes},     {"frictionless", BenchFrictionless}};
+    {"search", BenchSearch},   {"trade", BenchTrade},   {"extremes", BenchExtremes},
+    {"silent", BenchSilent},   {"gate", BenchGate},     {"gate-cost", BenchGateCost},
+    {"methods", BenchMethods}, {"scenes", BenchScenes}, {"frictionless", BenchFrictionless}};
 
 int RunBench(const BenchWords& words) {
   const BenchOptions o = words.Options();

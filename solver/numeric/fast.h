@@ -39,6 +39,7 @@
 
 #include "solver/complete/complete.h"
 #include "solver/linear/dense_factor.h"
+#include "solver/problem/errors.h"
 #include "solver/problem/units.h"
 #include "solver/published/published.h"
 

@@ -75,6 +75,17 @@ class Gate(cli.TestCase):
         self.refuses("bench", "--suite", "gate", "--families", "jams", says="'jams'")
 
 
+class GateCost(cli.TestCase):
+    def test_every_problem_is_judged_in_every_turn(self):
+        done = cli.run("bench", "--suite", "gate-cost", "--contacts", 2, 4, "--problems", 6, "--json")
+        self.assertEqual(done.code, 0, done.err)
+        rows = done.json()["gate-cost"]
+        self.assertEqual([(row["contacts"], row["problems"], row["passed"]) for row in rows], [(2, 6, 6), (4, 6, 6)])
+        for row in rows:
+            self.assertGreaterEqual(row["gate/lu at 90 %"], row["gate/lu"])
+            self.assertGreater(row["lu us"], 0)
+
+
 @unittest.skipUnless(cli.ALL, "the packages are built for the first build of the matrix")
 class PeersExtremes(cli.TestCase):
     """Packages along dials; those that are not installed are left out, our own are always there."""

@@ -447,5 +447,10 @@ def gate(program):
         chosen = [cell for cell in cells if cell["dimension"] == dimension]
         parts.append(f"**In {'the ' if dimension == 2 else ''}{where}**\n\n" + gate_table(chosen, ["method", "arithmetic"]))
     solved, wrong = (sum(cell[key] for cell in cells) for key in ("solved", "wrong"))
+    cost = program.bench("gate-cost")["gate-cost"]
+    parts.append("**Microseconds a problem of the plane: LU of A, and judging the forces**\n\n" + table(
+        ["contacts", "LU", "gate", "gate / LU", "at 90 %"],
+        [(row["contacts"], f"{row['lu us']:.3g}", f"{row['gate us']:.3g}", f"{row['gate/lu']:.2g}",
+          f"{row['gate/lu at 90 %']:.2g}") for row in cost]))
     return "\n\n".join(parts) + "\n\n" + prose(
         f"Of {count(solved)} answers called solved {wrong} are wrong; a million have, 95 %: {rate(wrong, solved)}.")

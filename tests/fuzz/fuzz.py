@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the fuzz targets (targets.h) with clang, libFuzzer and the sanitizers in build/fuzz, and runs them.
+"""Builds the fuzz targets (targets.h) with clang, libFuzzer and the sanitizers in build/sanitize, and runs them.
 
     tests/fuzz/fuzz.py [--seconds N] [--target NAME ...] [--longer NAME=N] [--jobs N]
 
@@ -33,6 +33,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "fuzz"
+BINARIES = ROOT / "build" / "sanitize"  # as ./run test --nightly configures it, whose tests are sanitized
 TABLE = json.loads((ROOT / "tests/fuzz/targets.json").read_text())
 
 SECONDS_PER_INPUT = 20
@@ -43,11 +44,11 @@ WORDS_IN_DICTIONARY = 500
 
 
 def build(targets, jobs):
-    if not (BUILD / "build.ninja").exists():
-        subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, "-DCMAKE_CXX_COMPILER=clang++",
-                        "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -gline-tables-only",
+    if not (BINARIES / "build.ninja").exists():
+        subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BINARIES, "-DCMAKE_CXX_COMPILER=clang++",
+                        "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS=-O1", "-DCMAKE_CXX_FLAGS_DEBUG=-gline-tables-only",
                         "-DSTICTION_FUZZ=ON", "-DSTICTION_PYTHON=OFF"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["ninja", "-C", BUILD, "-j", str(jobs), *(f"fuzz_{name}" for name in targets)], check=True)
+    subprocess.run(["ninja", "-C", BINARIES, "-j", str(jobs), *(f"fuzz_{name}" for name in targets)], check=True)
 
 
 # ---- Seeds -------------------------------------------------------------------------------------
@@ -112,7 +113,7 @@ class Ledger:
 # ---- Runs --------------------------------------------------------------------------------------
 
 def program(name):
-    return BUILD / "tests/fuzz" / f"fuzz_{name}"
+    return BINARIES / "tests/fuzz" / f"fuzz_{name}"
 
 
 def ends_in_time(command):

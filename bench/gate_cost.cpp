@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench --suite gate-cost: what it costs to judge forces, beside LU of the same A: every answer pays it.
+//
+// Problems of family.h, forces of the fast method, which the gate lets pass. A time is that of a block of
+// problems, one after another, the less of wall-clock time and processor time; LU (Eigen, partial pivoting,
+// with one solve) and the gate take turns at blocks.
+
+#include <Eigen/LU>
+#include <iostream>
+
+#include "bench/family.h"
+#include "bench/measure.h"
+#include "bench/one_thread.h"
+#include "bench/progress.h"
+#include "bench/suite.h"
+#include "bench/table.h"
+#include "corpus/exit_code.h"
+#include "corpus/json.h"
+#include "corpus/stopwatch.h"
+#include "solver/numeric/fast.h"
+#include "solver/problem/gate.h"
+
+namespace stiction {
+namespace {
+
+struct Judged {
+  ContactProblem<double> problem;
+  Eigen::VectorXd f;
+};
+
+std::vector<Judged> SolvedProblems(int contacts, std::int64_t count, std::uint64_t seed) {
+  FastSolver<double> fast;
+  std::vector<Judged> solved;
+  for (std::int64_t index = 0; index < count; ++index) {
+    ContactProblem<double> problem = MakeBenchProblem({}, contacts, seed, index).rounded;
+    if (fast.Run(problem).outcome == Outcome::kSolved) solved.push_back({std::move(problem), fast.f()});
+  }
+  return solved;
+}
+
+// Microseconds a problem.
+template <class Call>
+double MicrosecondsOf(const std::vector<Judged>& problems, Call call) {
+  const Stopwatch watch;
+  for (const Judged& judged : problems) call(judged);
+  return 1e6 * watch.Seconds() / static_cast<double>(problems.size());
+}
+
+Json Row(int contacts, const BenchOptions& options) {
+  const std::int64_t most = contacts <= 10 ? 400 : contacts <= 30 ? 100 : 20;
+  const auto problems = SolvedProblems(contacts, std::min(options.problems.value_or(most), most), options.seed);
+  constexpr int kTurns = 50;
+  progress::Begin(fmt::format("turns at {} contacts", contacts), kTurns);
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+  GateMeter<double> meter;
+  const Gate gate = GateOf<double>();
+  double sum = 0;  // so that nothing is left out
+  std::int64_t passed = 0;
+  std::vector<double> lus, gates, ratios;
+  for (int turn = 0; turn < kTurns && !problems.empty(); ++turn) {
+    lus.push_back(MicrosecondsOf(problems, [&](const Judged& judged) {
+      lu.compute(judged.problem.A);
+      sum += lu.solve(judged.problem.b)[0];
+    }));
+    passed = 0;
+    gates.push_back(MicrosecondsOf(problems, [&](const Judged& judged) {
+      passed += BoundErrors(judged.problem, FrictionLaw::kCoulomb, judged.f, gate, meter).Largest() <= gate.eps;
+    }));
+    ratios.push_back(gates.back() / lus.back());
+    progress::Done(1);
+  }
+  progress::Clear();
+  const Quartiles ratio = QuartilesOf(ratios);
+  return {{"contacts", contacts},
+          {"problems", problems.size()},
+          {"passed", passed},
+          {"lu us", QuartilesOf(lus).median},
+          {"gate us", QuartilesOf(gates).median},
+          {"gate/lu", ratio.median},
+          {"gate/lu at 90 %", ratio.ninety},
+          {"finite", std::isfinite(sum)}};
+}
+
+}  // namespace
+
+int BenchGateCost(const BenchOptions& options) {
+  const std::vector<int> sizes = options.contacts.empty() ? std::vector<int>{3, 10, 30, 100} : options.contacts;
+  progress::Expect(sizes.size());
+  BenchTable table{"gate-cost", "microseconds a problem of the plane: LU of A with one solve, and the gate"};
+  for (const int contacts : sizes) table.rows.push_back(Row(contacts, options));
+  if (options.json) {
+    std::cout << JsonText({{"suite", options.suite},
+                           {"seed", options.seed},
+                           {"one_thread", ThreadsJson()},
+                           {table.name, table.rows}})
+              << "\n";
+  } else {
+    fmt::print("{}\n", ThreadsText());
+    Print(table);
+  }
+  return kExitDone;
+}
+
+}  // namespace stiction
