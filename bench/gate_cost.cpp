@@ -54,13 +54,13 @@ Json Row(int contacts, const BenchOptions& options) {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
   GateMeter<double> meter;
   const Gate gate = GateOf<double>();
-  double sum = 0;  // so that nothing is left out
+  [[maybe_unused]] volatile double kept = 0;  // so that nothing is left out
   std::int64_t passed = 0;
   std::vector<double> lus, gates, ratios;
   for (int turn = 0; turn < kTurns && !problems.empty(); ++turn) {
     lus.push_back(MicrosecondsOf(problems, [&](const Judged& judged) {
       lu.compute(judged.problem.A);
-      sum += lu.solve(judged.problem.b)[0];
+      kept = lu.solve(judged.problem.b)[0];
     }));
     passed = 0;
     gates.push_back(MicrosecondsOf(problems, [&](const Judged& judged) {
@@ -77,8 +77,7 @@ Json Row(int contacts, const BenchOptions& options) {
           {"lu us", QuartilesOf(lus).median},
           {"gate us", QuartilesOf(gates).median},
           {"gate/lu", ratio.median},
-          {"gate/lu at 90 %", ratio.ninety},
-          {"finite", std::isfinite(sum)}};
+          {"gate/lu at 90 %", ratio.ninety}};
 }
 
 }  // namespace
