@@ -33,6 +33,7 @@ ROOMS = {
     "search": {"generators": ["lanes"], "lanes": ["generators"], "units": ["generators", "lanes"],
                "adversary": ["generators", "units"]},
 }
+OF_OTHERS = ("ode/src/lcp.cpp",)  # sources of other packages that texts name
 MOST_LEVELS = 10
 UNITED = ("certify", "cli", "corpus", "reports", "scene", "search")  # several sources to a unit
 CONSTANT = re.compile(r"^(?:static |inline )?constexpr [^=;(]*?\b(k\w+)\s*(?:\[[^\]]*\])*\s*[={]", re.M)
@@ -57,6 +58,22 @@ class Structure(cli.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.ours, cls.others = sources()
+
+    def test_a_source_that_a_text_or_a_comment_names_is_there(self):
+        said = re.compile(r"(?<![\w/.])([a-z_]+(?:/[a-z_]+)+\.(?:h|cpp|ipp|py))\b")
+        files = [path for folder in (*FOLDERS, "tests") for path in (cli.ROOT / folder).rglob("*") if path.is_file()]
+        there = {path.relative_to(cli.ROOT).as_posix() for path in files}
+        ends = {path[i + 1:] for path in there for i, c in enumerate(path) if c == "/"} | there
+        count = 0
+        for path in [*files, *cli.ROOT.glob("*.md")]:
+            if path.suffix not in (".md", ".h", ".cpp", ".ipp"):
+                continue
+            for line in path.read_text().splitlines():
+                for name in said.findall(line if path.suffix == ".md" else line.partition("//")[2]):
+                    count += 1
+                    if name not in OF_OTHERS:
+                        self.assertIn(name, ends, path)
+        self.assertGreater(count, 300)
 
     def test_folders_include_only_those_before_them(self):
         self.assertGreater(len(self.ours), 150)
