@@ -219,8 +219,7 @@ Answer<Scalar> RunAsIs(const Method<Scalar>& method, const ContactProblem<Scalar
   return answer;
 }
 
-// Forces of float and double are refined where the gate asks for it; wider ones are, when they are told in
-// doubles.
+// Forces are refined over doubles where the gate asks for it; what passes in wider numbers keeps its digits.
 template <class Scalar>
 Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw law, const Gate& gate,
                            typename ContactProblem<Scalar>::Vector& f) {
@@ -228,19 +227,23 @@ Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw la
     Refined refined = Refine(problem, law, gate, f);
     f = std::move(refined.f);
     return refined.errors;
-  } else if constexpr (std::is_same_v<Scalar, float>) {
-    const auto doubles = Converted<double>(problem, [](float x) { return static_cast<double>(x); });
+  } else {
+    constexpr bool narrow = std::is_same_v<Scalar, float>;  // whose products are exact over doubles
+    const auto doubles = Converted<double>(problem, [](const Scalar& x) { return static_cast<double>(x); });
+    const auto errors_of = [&](const auto& forces) {
+      if constexpr (narrow) return BoundErrors(doubles, law, forces.template cast<double>().eval(), gate);
+      if constexpr (!narrow) return BoundErrors(problem, law, forces, gate);
+    };
+    const Errors<double> given = errors_of(f);
+    if (!narrow && (!given.is_finite || given.Largest() <= gate.eps)) return given;
     const Eigen::VectorXd first = f.template cast<double>();
-    const Errors<double> given = BoundErrors(doubles, law, first, gate);
     const Refined refined = Refine(doubles, law, gate, first);
     if (refined.f == first) return given;
-    const auto narrow = refined.f.template cast<float>().eval();
-    const Errors<double> errors = BoundErrors(doubles, law, narrow.template cast<double>().eval(), gate);
+    const typename ContactProblem<Scalar>::Vector told = refined.f.template cast<Scalar>();
+    const Errors<double> errors = errors_of(told);
     if (!(errors.Largest() < given.Largest() || errors.Largest() <= gate.eps)) return given;
-    f = narrow;
+    f = told;
     return errors;
-  } else {
-    return BoundErrors(problem, law, f, gate);
   }
 }
 
