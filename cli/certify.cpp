@@ -11,6 +11,7 @@
 #include "certify/claims/claims.h"
 #include "certify/claims/condition.h"
 #include "certify/claims/coq_text.h"
+#include "certify/claims/policy_ends.h"
 #include "certify/claims/robust.h"
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
@@ -136,7 +137,7 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   const auto scene = ReadTouchingScene(o, file);
   Json rows = Json::array();
   bool all = true;
-  for (const Policy& policy : ParsePolicies(o.policy)) {
+  for (const Policy& policy : PoliciesAsked(o.policy, file.problem.dimension)) {
     const PublishedOptions options = {policy, {}, o.limits};
     const std::string name = PolicyName(policy);
     const auto radius = RadiusOfLoop(file.problem, options);

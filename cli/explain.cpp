@@ -27,9 +27,9 @@ const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
   auto [verb, o] = program.Add(
       "explain", "What a problem is, whether it has a solution, and what the methods do on it", RunExplain);
   verb.footer =
-      "Up to 24 rows every method runs and every claim is tried, up to 8 contacts every policy and every "
-      "contact mode, too; "
-      "of larger problems what `survey` finds is told.";
+      "Up to 24 rows every method runs and every claim of such problems is tried, up to 8 contacts every "
+      "policy "
+      "and every contact mode, too; of larger problems what `survey` finds is told.";
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Prints(o.json,
               "one problem: what it is, what the methods do on it, what can be certified, what to type next",
@@ -41,7 +41,7 @@ const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
                   period?: integer, unique_accelerations?: false}],
       solve?: {method: text, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
                period?: integer, unique_accelerations?: false},  // what `solve` says by default
-      policies?: {all: integer, outcomes: {*: integer},
+      policies?: {all: integer, arithmetic: arithmetic, outcomes: {*: integer},
                   loops: {outcome: outcome, start: integer, period: integer, policy: text, proved: truth,
                           kind: "states" | "box", reason?: text} | null},
       solutions?: {complete: truth, modes: [[text]], unique: truth},

@@ -231,6 +231,7 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   const auto by_name = OutcomesOf(o, file.problem, o.file);
   const std::vector<Policy> grid = GridOf(file.problem.dimension);
+  const std::string_view arithmetic = Name(PathRequestOf(o, file.problem, o.file).arithmetic);
   Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
   for (const Policy& policy : grid) {
     const std::string name = PolicyName(policy);
@@ -247,9 +248,14 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
     return kExitDone;
   }
   if (o.json) {
-    std::cout << JsonText({{"policies", outcomes}, {"counts", counts}, {"unexpected", unexpected}}) << "\n";
+    std::cout << JsonText({{"policies", outcomes},
+                           {"arithmetic", arithmetic},
+                           {"counts", counts},
+                           {"unexpected", unexpected}})
+              << "\n";
   } else {
     PrintOutcomes(o, grid, outcomes);
+    if (arithmetic != "exact") Tell("({}: rounded runs, which prove nothing about the file)\n", arithmetic);
     if (!unexpected.empty())
       Tell("{}: {}\n", file.expect.empty() ? "not solved" : "not as expected",
            Counted(static_cast<std::int64_t>(unexpected.size()), "policy"));
@@ -306,7 +312,7 @@ const ListedVerb kReplayVerb("One problem", 20, [](CommandLine& program) {
         event?: text, pivot?: integer, entering?: text, leaving?: text, z0?: any_number, sets?: {*: text},
         recorded?: {*: [any_number]}, turned_away?: truth}]
     } | {
-      policies: {*: end}, counts: counters,
+      policies: {*: end}, arithmetic: arithmetic, counts: counters,
       unexpected: [text]  // policies that end otherwise than the file expects, or, without, unsolved
     })");
   AddLimits(verb, o.options.limits);

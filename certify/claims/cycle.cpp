@@ -446,13 +446,15 @@ ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const 
   const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
   ClaimAnswer answer = AnswerOfEnds(ends, verb, state);
   answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), o.limits, prove, to_json);
-  TellCertified(answer);
-  if (answer.policies->so > 0 && answer.certificate.is_null() && answer.state == ClaimState::kProved) {
+  // A certificate in space is of one policy.
+  if (answer.state == ClaimState::kProved && (answer.certificate.is_null() || answer.policies->asked > 1)) {
     answer.state = ClaimState::kNotDecided;
-    answer.reason += ", as intervals say; no certificate of it was found";
+    answer.reason += ", as intervals say";
+    if (answer.certificate.is_null()) answer.reason += "; no certificate of it was found";
   }
   if (ends.size() == 1 && answer.state == ClaimState::kDisproved)
     answer.certificate = OppositeInSpace(problem, ends.front(), o.limits);
+  TellCertified(answer);
   return answer;
 }
 
@@ -509,8 +511,11 @@ ClaimAnswer OfCounterexample(const ExactProblem& problem, const ClaimOptions& o)
   Json runs = CyclesToJson(problem, ends, o.limits);
   if (runs.empty()) return answer;
   const Existence existence = DecideExistence(problem, o.limits, o.enumeration);
+  if (existence.certificate.is_object() && existence.certificate["claim"] == "no-solution")
+    return ByCertificate(existence.certificate);  // as where contacts slide
   if (existence.certificate.is_null() || existence.certificate["claim"] != "solution-exists")
-    return ByCertificate(nullptr, "no solution was found, though A is definite: " + existence.reason);
+    return ByCertificate(nullptr, existence.reason.empty() ? "no solution was found"
+                                                           : "no solution was found: " + existence.reason);
   answer.certificate = CounterexampleOf(problem, *factors, existence.certificate, std::move(runs));
   TellCertified(answer);
   return answer;

@@ -55,11 +55,28 @@ std::string EndSentence(const PolicyEnds& end, ClaimState state, const ClaimedVe
   if (end.outcome == Outcome::kLimit) return fmt::format("{} the run is out of {}", under, end.reason);
   if (state == ClaimState::kNotDecided)
     return fmt::format("{} it is {}", under, end.reason.empty() ? "undecided" : "undecided: " + end.reason);
+  if (IsLoop(end.outcome)) return fmt::format("{} the published algorithm never ends", under);
   return fmt::format("{} the published algorithm ends in {} after {}, {}", under, Name(end.outcome),
                      Counted(end.drives, "drive"), Counted(end.steps, "step"));
 }
 
 }  // namespace
+
+std::vector<Policy> GridOf(int dimension) {
+  if (dimension == 2) return PlanarGrid();
+  std::vector<Policy> grid;
+  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
+    for (Policy policy : PlanarGrid()) {
+      policy.slip = slip;
+      if (PublishedReadsInSpace(policy)) grid.push_back(policy);
+    }
+  }
+  return grid;
+}
+
+std::vector<Policy> PoliciesAsked(std::string_view text, int dimension) {
+  return text == "*" ? GridOf(dimension) : ParsePolicies(text);
+}
 
 std::vector<PolicyEnds> EndsUnder(const std::vector<Policy>& policies, const ExactProblem& problem,
                                   const Limits& limits) {

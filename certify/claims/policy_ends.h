@@ -25,6 +25,11 @@ struct PolicyEnds {
   std::int64_t drives = 0, steps = 0;
 };
 
+// All policies: in the plane the whole grid; in space what of it is built there, for each reading of `slip`.
+std::vector<Policy> GridOf(int dimension);
+// ParsePolicies, whose "*" is GridOf.
+std::vector<Policy> PoliciesAsked(std::string_view text, int dimension);
+
 std::vector<PolicyEnds> EndsUnder(const std::vector<Policy>& policies, const ExactProblem& problem,
                                   const Limits& limits);
 

@@ -30,7 +30,7 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const SolveOption
   if (problem.rows() == 0) {
     answer.outcome = Outcome::kSolved;
   } else {  // no forces, which the gate would refine
-    answer.reason = "A is not symmetric and positive semidefinite, or too large for a dense J";
+    answer.reason = "over doubles A is not symmetric and positive semidefinite, or too large for a dense J";
   }
   return answer;
 }

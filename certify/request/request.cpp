@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "certify/claims/claims.h"
+#include "certify/claims/policy_ends.h"
 #include "certify/request/solve_sparse.h"
 #include "corpus/json.h"
 #include "corpus/record/sparse_problem.h"
@@ -149,8 +150,9 @@ Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const
     throw InputError(
         fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
                     wanted.dashes, wanted.law, wanted.claim));
-  return CertifyClaim(problem, source, wanted.claim,
-                      {ParsePolicies(wanted.policy), wanted.limits, enumeration, law, wanted.factors});
+  return CertifyClaim(
+      problem, source, wanted.claim,
+      {PoliciesAsked(wanted.policy, problem.dimension), wanted.limits, enumeration, law, wanted.factors});
 }
 
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {

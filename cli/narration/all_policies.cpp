@@ -7,7 +7,6 @@
 #include "certify/exact/exact.h"
 #include "certify/request/request.h"
 #include "corpus/json.h"
-#include "solver/published/published_space.h"
 
 namespace stiction {
 namespace {
@@ -41,18 +40,6 @@ Outcomes InSpace(SolveRequest request, const ExactProblem& problem, const std::s
 }
 
 }  // namespace
-
-std::vector<Policy> GridOf(int dimension) {
-  if (dimension == 2) return PlanarGrid();
-  std::vector<Policy> grid;
-  for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
-    for (Policy policy : PlanarGrid()) {
-      policy.slip = slip;
-      if (PublishedReadsInSpace(policy)) grid.push_back(policy);
-    }
-  }
-  return grid;
-}
 
 std::map<std::string, Json> OutcomesOf(const Wanted& wanted, const ExactProblem& problem,
                                        const std::string& source) {

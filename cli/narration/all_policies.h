@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "certify/claims/policy_ends.h"
 #include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
 #include "solver/problem/options.h"
@@ -15,9 +16,6 @@
 namespace stiction {
 
 struct Wanted;  // request.h
-
-// In the plane the whole grid; in space what of it is built there, for each reading of `slip`.
-std::vector<Policy> GridOf(int dimension);
 
 // By the name of a policy its end as JSON, without the reason, which is a run's own. Policies that consult the
 // same switches run once. InputError for another method than baraff, and for an arithmetic in the plane that is

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "certify/claims/claims.h"
+#include "certify/claims/policy_ends.h"
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
@@ -85,7 +86,10 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
     if (ends.at(name).contains("period"))
       looping.insert(name == "paper" ? looping.begin() : looping.end(), name);
   }
-  Json found = {{"all", ends.size()}, {"outcomes", outcomes}, {"loops", nullptr}};
+  Json found = {{"all", ends.size()},
+                {"arithmetic", problem.dimension == 2 ? "exact" : "double"},
+                {"outcomes", outcomes},
+                {"loops", nullptr}};
   if (looping.empty()) return found;
   found["loops"] = ends.at(looping[0]);
   found["loops"]["policy"] = wanted.policy = looping[0];
@@ -161,7 +165,7 @@ Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::strin
   const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   ClaimOptions options;
-  options.policies = ParsePolicies(policy);
+  options.policies = PoliciesAsked(policy, file.problem.dimension);
   options.limits = o.limits;
   options.enumeration.programs = kPrograms;
   options.factors = file.factors ? &*file.factors : nullptr;
@@ -213,7 +217,10 @@ Json NextOf(const Json& found, const std::string& file) {
     const Json& loop = found["policies"]["loops"];
     const bool other = !loop.is_null() && loop["policy"] != "paper";
     const std::string policy = other ? " --policy " + loop["policy"].get<std::string>() : "";
-    add("replay", policy + " --step", "the published algorithm, step by step, exactly");
+    const bool exactly = found["policies"]["arithmetic"] == "exact";
+    add("replay", policy + " --step",
+        exactly ? "the published algorithm, step by step, exactly"
+                : "the published algorithm, step by step, over doubles");
     add("replay", policy + " --html run.html", "the same as a page, beside complete driving");
     add("replay", " --all-policies", "which policies end how, and what they have in common");
     if (!loop.is_null() && loop["proved"] == true)
@@ -267,8 +274,9 @@ std::string ProblemText(const Json& found) {
   const Json& facts = found["survey"];
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : found["kinds"].items()) kinds.push_back(JsonText(count) + " " + kind);
-  std::string text = fmt::format("{} {}: {}", Counted(facts["contacts"], "contact"),
-                                 facts["dimension"] == 3 ? "in space" : "in the plane", fmt::join(kinds, ", "));
+  std::string text = fmt::format("{} {}{}{}", Counted(facts["contacts"], "contact"),
+                                 facts["dimension"] == 3 ? "in space" : "in the plane",
+                                 kinds.empty() ? "" : ": ", fmt::join(kinds, ", "));
   if (found.contains("mu")) text += ", mu " + BetweenText(found["mu"]);
   text += fmt::format(". A has {}", Counted(facts["rows"], "row"));
   if (found.contains("rank")) text += ", rank " + JsonText(found["rank"]);
@@ -300,8 +308,9 @@ std::string PoliciesText(const Json& policies) {
   std::vector<std::string> parts;
   for (const auto& [outcome, count] : policies["outcomes"].items())
     parts.push_back(fmt::format("{} {}", outcome, Grouped(count.get<std::int64_t>())));
-  const std::string text = fmt::format("The published algorithm under {}, readings of its text: {}.",
-                                       Counted(policies["all"], "policy"), fmt::join(parts, ", "));
+  const std::string text = fmt::format(
+      "The published algorithm under {}, readings of its text{}: {}.", Counted(policies["all"], "policy"),
+      policies["arithmetic"] == "exact" ? "" : ", over doubles", fmt::join(parts, ", "));
   const Json& loop = policies["loops"];
   if (loop.is_null()) return text;
   const ProvedRun run{loop["kind"] == "box" ? ProofKind::kBox : ProofKind::kStates, loop["start"],

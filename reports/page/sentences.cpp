@@ -70,7 +70,7 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   std::int64_t finished = 0, found = 0, minimized = 0;
   int smallest = 0;
   for (const Discovery& discovery : discoveries) {
-    if (!discovery.IsLoop() || !discovery.Finished()) continue;
+    if (!discovery.IsLoop() || !discovery.Finished() || !discovery.SawPolicies()) continue;
     ++finished;
     found += discovery.EveryPolicyLoops();
     minimized += discovery.minimized && discovery.minimized->grid.AllLoop();
@@ -80,7 +80,7 @@ Html GridSentence(const std::vector<Discovery>& discoveries) {
   if (finished == 0) return Html();
   return Sentence(
       found + minimized > 0 ? "Not a matter of one policy." : "The policy matters.",
-      fmt::format("Of {} of loops that {} certified and minimized, {} as minimized, and {} as "
+      fmt::format("Of {} of loops in the plane that {} certified and minimized, {} as minimized, and {} as "
                   "they were found, loop under every policy that stiction distinguishes; the smallest has {}.",
                   Counted(finished, "group"), finished == 1 ? "was" : "were", Grouped(minimized),
                   Grouped(found), Counted(smallest, "contact")));
@@ -92,7 +92,7 @@ Html OtherFailures(const Counts& sums) {
   const auto part = [&sums](std::int64_t count, const char* what) {
     return fmt::format("{} {} ({} in a million)", Counted(count, "run"), what, RateText(count, sums.runs));
   };
-  std::string text = "In exact arithmetic ";
+  std::string text = "In exact arithmetic or, in space, over intervals ";
   if (singular > 0) text += part(singular, "come to a direction system without a solution");
   if (singular > 0 && rays > 0) text += ", and ";
   if (rays > 0) text += part(rays, "come to a step that nothing limits");

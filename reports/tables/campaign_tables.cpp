@@ -120,14 +120,16 @@ Table FindingsTable(const std::vector<Discovery>& discoveries) {
     });
     put({StateOf(d)});
     add(d.loop.has_value(), 2, [&] { put({d.loop->drives, d.loop->steps}); });
-    add(d.found.has_value(), 5 + kOutcomeCount, [&] {
-      put({d.found->start, d.found->period, d.found->steps, d.WholeGrid(), d.EveryPolicyLoops()});
+    add(d.found.has_value(), 3, [&] { put({d.found->start, d.found->period, d.found->steps}); });
+    add(d.SawPolicies(), 2 + kOutcomeCount, [&] {
+      put({d.WholeGrid(), d.EveryPolicyLoops()});
       AddAll(cells, d.found->grid.counts);
     });
-    add(d.minimized.has_value(), 4 + kOutcomeCount, [&] {
+    add(d.minimized.has_value(), 4, [&] {
       put({d.minimized->contacts, d.minimized->start, d.minimized->period, d.minimized->steps});
-      AddAll(cells, d.minimized->grid.counts);
     });
+    add(d.minimized && d.minimized->grid.Total() > 0, kOutcomeCount,
+        [&] { AddAll(cells, d.minimized->grid.counts); });
     const FindingFiles& files = d.files;
     put({files.problem, files.original, files.certificate, files.existence, files.original_existence});
     add(d.found.has_value(), 1, [&] { put({d.found->safe}); });  // where it was decided

@@ -76,6 +76,8 @@ struct Discovery {
   // Different words of its loops: counted, or estimated and then no more than there were loops. Requires
   // `words`.
   std::int64_t Words() const;
+  // Whether the policies of the planar grid were run on it as it was found: of loops in the plane.
+  bool SawPolicies() const { return found && found->grid.Total() > 0; }
   bool EveryPolicyLoops() const { return found && found->grid.AllLoop(); }
   int SmallestContacts() const;  // of the minimized problem, or as found
 };

@@ -97,9 +97,12 @@ std::string LoopsText(const StoreTotals& t) {
                             "of such a run recurs, exactly; in space, as intervals prove, one does or the run "
                             "never leaves a box: so it never ends.",
                             PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
+  const bool is_minimized =
+      std::any_of(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
   const std::string grid =
       t.finished_loops == 0
-          ? "none is minimized yet, which tells how many loop under every policy"
+          ? is_minimized ? "other policies were not looked at, which is done of minimized loops in the plane"
+                         : "none is minimized yet, which tells how many loop under every policy"
           : fmt::format("of {} finished, {} under every policy that stiction distinguishes, as minimized",
                         Grouped(t.finished_loops), Verb(t.whole_grid, "loops", "loop"));
   text += Paragraph(fmt::format("Found in {}; {}.", Counted(t.LoopGroups(), "group"), grid));
@@ -111,9 +114,9 @@ std::string LoopsText(const StoreTotals& t) {
   return text;
 }
 
-// How the algorithm fails, in exact arithmetic.
+// How the algorithm fails, in exact arithmetic or, in space, over intervals.
 std::string FailuresTable(const StoreTotals& t) {
-  Table table{"failures", "", Columns("in_exact_arithmetic* outcome* runs in_a_million_[95_%]")};
+  Table table{"failures", "", Columns("repeated_exactly* outcome* runs in_a_million_[95_%]")};
   table.keys = 2;
   for (int i = 0; i < kOutcomeCount; ++i) {
     const std::string name(kOutcomeNames[i]);
@@ -121,7 +124,7 @@ std::string FailuresTable(const StoreTotals& t) {
     if (i != static_cast<int>(Outcome::kSolved) && count > 0)
       table.Add({InWords(name), name, count, RateOf(count, t.counts.runs)});
   }
-  return table.rows.empty() ? Paragraph("No run fails in exact arithmetic.") : ToText(table);
+  return table.rows.empty() ? Paragraph("No run that was repeated exactly fails.") : ToText(table);
 }
 
 // What a label of doubles says, which is no disagreement of the exact methods.
@@ -156,8 +159,9 @@ std::string ExistenceText(const StoreTotals& t) {
   }
   const std::string disagree =
       t.disagreements == 0 ? "they never disagree with each other" : Counted(t.disagreements, "disagreement");
-  text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
-                                Counted(a.compared, "problem"), Grouped(a.enumerated), disagree));
+  if (a.compared > 0 || t.disagreements > 0)
+    text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
+                                  Counted(a.compared, "problem"), Grouped(a.enumerated), disagree));
   if (a.safety_decided > 0)
     text += Paragraph(
         fmt::format("{} of {} {} safe (all reduced determinants are positive); under apex=suspended the "
@@ -199,9 +203,13 @@ std::string WorthText(const StoreTotals& t) {
 }
 
 std::string FinishText(const StoreTotals& t, const std::string& file) {
+  // What exact runs do not decide, or do not show again, has neither.
+  const auto minimized = std::ssize(t.simplest);
+  const std::string without =
+      minimized == t.finished ? "" : fmt::format(", {} finished without that", Grouped(t.finished - minimized));
   std::string text = Paragraph(
-      fmt::format("Representatives, one of each group as far as kept: {} certified and minimized, {} to go.",
-                  Grouped(t.finished), Grouped(t.pending)));
+      fmt::format("Representatives, one of each group as far as kept: {} certified and minimized{}, {} to go.",
+                  Grouped(minimized), without, Grouped(t.pending)));
   if (t.pending > 0) text += Paragraph("What is to go is finished by:") + Command(FinishCommand(file));
   return text;
 }
@@ -281,7 +289,7 @@ std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
   std::string text = "\n" + Heading("The simplest loop: " + first->signature);
   text += Paragraph(FindingText(*first) + ".") +
           ProblemText(ParseProblem(first->minimized, first->signature).problem);
-  text += Paragraph("Step by step, with every force in exact numbers, and as a page in which to step:");
+  text += Paragraph("Step by step, with every force, and as a page in which to step:");
   text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
   text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, options));
   text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, options));
@@ -322,7 +330,7 @@ std::string WithoutFlags(const std::string& build) {
 // Rates under every policy, by contacts and friction, too; or by generator, under the first one.
 std::string RatesText(const StoreTotals& t, Extent extent) {
   if (t.counts.runs == 0) return "";
-  std::string text = "\n" + Heading("How often it fails, in exact arithmetic");
+  std::string text = "\n" + Heading("How often it fails, in exact arithmetic or, in space, over intervals");
   if (extent == Extent::kTwoScreens)
     return text + FailuresByPolicy(t.record, {"generator"}, "Policy {}:", extent);
   return text + FailuresByPolicy(t.record, {"generator", "contacts"}, "Policy {}:", extent) + "\n" +

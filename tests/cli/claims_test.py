@@ -153,6 +153,50 @@ class Claims(cli.TestCase):
             answer, code, out = self.asked(claim, problem, ())
             self.assertEqual((answer["state"], answer["claim"], code), ("disproved", certified, 0))
             self.assertEqual(json.loads(out.read_text())["claim"], certified)
+            self.assertNotIn("ends in cycle", answer["reason"])  # what never ends has no end
+
+    def test_in_space_all_policies_are_those_that_are_built_there(self):
+        file = CORPUS / "space/cycle-under-both-slips.json"
+        every = cli.run("replay", file, "--all-policies", "--json").json()
+        done = cli.run("certify", file, "--claim", "cycle", "--policy", "*", "-o", self.folder / "c.json", "--json")
+        answer = done.json()
+        self.assertEqual(answer["policies"]["asked"], len(every["policies"]))
+        # Intervals say so of all; the certificate proves it of one.
+        self.assertEqual((answer["state"], answer["policies"]["certified"], done.code), ("not decided", 1, 3))
+        self.assertIn("as intervals say; the certificate is of 1 of the", answer["reason"])
+
+    def test_without_a_solution_there_is_no_counterexample(self):
+        sliding = CORPUS / "sliding"
+        for file in (sliding / "cycle-of-sliding-contacts.json", sliding / "cycle-or-ray-without-solution.json"):
+            answer, code, out = self.asked("counterexample", file, ())
+            existence, _, _ = self.asked("existence", file, ())
+            self.assertEqual((existence["claim"], answer["claim"], answer["state"], code),
+                             ("no-solution", "no-solution", "disproved", 0))
+
+
+# Nothing solves it: f1 - f2 >= 1, and f1 - f2 <= 1 - 1e-17. Over doubles everything does.
+ROUNDED_AWAY = {"dimension": 3, "contacts": [{"kind": "frictionless"}] * 2, "A": [["1", "-1"], ["-1", "1"]],
+                "b": ["-1", "0.99999999999999999"]}
+
+
+class Rounded(cli.TestCase):
+    """What rounded numbers say is not said of the file."""
+
+    def test_runs_over_doubles_say_so_beside_a_proof_of_the_opposite(self):
+        file = self.file("p.json", ROUNDED_AWAY)
+        self.assertIn("disproved, no-solution", self.succeeds("certify", file, "-o", self.folder / "c.json").out)
+        done = self.succeeds("replay", file, "--all-policies")
+        self.assertRegex(cli.unwrapped(done.out), r"solved: all [0-9]+ policies \(double: rounded runs, which prove nothing")
+        self.assertEqual(self.succeeds("replay", file, "--all-policies", "--json").json()["arithmetic"], "double")
+        self.assertRegex(cli.unwrapped(cli.run("explain", file).out), "readings of its text, over doubles: solved [0-9]+")
+        self.assertIn("over doubles", next(step["shows"] for step in cli.run("explain", file, "--json").json()["next"]
+                                           if step["command"].endswith("--step")))
+
+    def test_in_the_plane_runs_are_exact(self):
+        file = self.file("p.json", cli.REFERENCE)
+        done = cli.run("replay", file, "--all-policies", "--json")
+        self.assertEqual(done.json()["arithmetic"], "exact")
+        self.assertNotIn("over doubles", cli.run("explain", file).out.split("readings of its text")[1][:40])
 
 
 if __name__ == "__main__":

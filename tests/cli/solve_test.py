@@ -139,5 +139,19 @@ class Solve(cli.TestCase):
         self.assertIn("the published algorithm gives", out)
 
 
+class SingularMatrices(cli.TestCase):
+    def test_bodies_are_found_of_every_semidefinite_matrix(self):
+        # Rounding leaves pivots of these below zero.
+        corpus = cli.ROOT / "corpus"
+        for name in ("space/cube-rests-on-four-corners", "space/cube-slides-on-four-corners", "sliding/hinged-slider"):
+            with self.subTest(name=name):
+                answer = self.succeeds("solve", corpus / f"{name}.json", "--method", "newton-bodies", "--json").json()
+                self.assertEqual(answer["outcome"], "solved")
+                self.assertLess(answer["residual"], 1e-8)
+        indefinite = self.file("p.json", {**cli.SOLVED, "A": [["1", "2"], ["2", "1"]]})
+        answer = cli.run("solve", indefinite, "--method", "newton-bodies", "--json").json()
+        self.assertIn("not symmetric and positive semidefinite", answer["reason"])
+
+
 if __name__ == "__main__":
     cli.main()

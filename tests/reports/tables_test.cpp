@@ -170,6 +170,14 @@ TEST_CASE("tables: every policy loops if all of the grid do") {
   CHECK_FALSE(grid.AllLoop());
 }
 
+TEST_CASE("tables: of a loop whose policies were not looked at nothing is said of them") {
+  Discovery in_space;
+  in_space.found.emplace();
+  CHECK_FALSE(in_space.SawPolicies());
+  in_space.found->grid.counts[static_cast<int>(Outcome::kSolved)] = 1;
+  CHECK(in_space.SawPolicies());
+}
+
 TEST_CASE("tables: what must be zero stands where it is not") {
   const Html section = ExistenceSection(SmallRecord());
   for (const char* row : {"2", "all"}) {
