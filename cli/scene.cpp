@@ -129,10 +129,15 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
   file.name = name;
   file.origin = origin;
   file.problem.dimension = problem.dimension;
+  const auto exact_of = [&name](const char* where, double x) {
+    if (std::isfinite(x)) return Rational(x);
+    throw InputError(name, where, "a number beyond those that double holds",
+                     "lengths, masses, velocities and forces of the scene from 1e-100 to 1e100");
+  };
   for (const auto& contact : problem.contacts) {
     Contact<Rational> exact;
     exact.kind = contact.kind;
-    exact.mu = Rational(contact.mu);
+    exact.mu = exact_of("mu", contact.mu);
     if (contact.kind == ContactKind::kSliding)
       exact.slip = ExactDirection<Rational>(MakeVector2<Rational>(contact.slip[0], contact.slip[1]));
     file.problem.contacts.push_back(exact);
@@ -141,8 +146,8 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
   file.problem.A.resize(rows, rows);
   file.problem.b.resize(rows);
   for (int i = 0; i < rows; ++i) {
-    file.problem.b[i] = Rational(problem.b[i]);
-    for (int j = 0; j < rows; ++j) file.problem.A(i, j) = Rational(problem.A(i, j));
+    file.problem.b[i] = exact_of("b", problem.b[i]);
+    for (int j = 0; j < rows; ++j) file.problem.A(i, j) = exact_of("A", problem.A(i, j));
   }
   return file;
 }

@@ -247,6 +247,18 @@ Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw la
   }
 }
 
+// MissedShare (problem/pressing.h), whose accelerations are not rounded to float.
+template <class Scalar>
+double MissedBy(const ContactProblem<Scalar>& problem, const Answer<Scalar>& answer) {
+  if constexpr (std::is_same_v<Scalar, float>) {
+    const Eigen::VectorXd f = answer.f.template cast<double>();
+    const Eigen::VectorXd a = problem.A.template cast<double>() * f + problem.b.template cast<double>();
+    return MissedShare(problem, f, a);
+  } else {
+    return MissedShare(problem, answer.f, answer.a);
+  }
+}
+
 template <class Scalar>
 void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer) {
   if (answer.f.size() != problem.rows()) {
@@ -259,10 +271,11 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
                          : BoundErrors(problem, answer.law, answer.f, gate);
   answer.a = problem.A * answer.f + problem.b;
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
-  // Of forces so large the rounding alone moves rows by what acts on them: nothing tells them from those that
-  // grow without end where there is no solution.
-  constexpr double kLent = 1.0 / 4;
-  const bool is_lost = is_finite && Pressing(problem, answer.f) * gate.tau > kLent;
+  // The rounding of forces so large moves rows by a part of what acts: nothing tells them from those that grow
+  // without end where there is no solution.
+  constexpr double kLent = 1.0 / 256;
+  const bool is_lost = is_finite && Pressing(problem, answer.f) * gate.tau * problem.rows() > kLent &&
+                       MissedBy(problem, answer) > kLent;
   const bool passes = is_finite && !is_lost && answer.errors->Largest() <= bound;
   if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits
     answer.outcome = Outcome::kSolved;

@@ -165,5 +165,27 @@ class Readers(cli.TestCase):
         self.assertIn("stopped", self.succeeds("solve", file, "--seconds", "1", code=3, timeout=110).out)
 
 
+class Extremes(cli.TestCase):
+    """What is read and is beyond what can be said of it."""
+
+    def test_a_scene_whose_problem_leaves_doubles_is_refused(self):
+        pegs = {"format": "stiction-scene", "version": 1, "name": "x", "dimension": 2, "mu": "1",
+                "bodies": [{"name": "pegs", "fixed": True}, {"name": "weight", "mass": "1", "inertia": "1/25"}],
+                "contacts": [{"bodies": ["weight", "pegs"], "at": ["1/2", -1e300], "normal": ["0", "1"]}]}
+        pin = {**pegs, "contacts": [], "joints": [{"kind": "pin", "bodies": ["weight", "pegs"], "at": [-1e300, "-2"]}]}
+        for k, scene in enumerate((pegs, pin)):
+            done = cli.run("simulate", self.file(f"{k}.json", scene), "-o", self.folder / f"run{k}", "--seconds", 0.05)
+            self.assertEqual(done.code, 2, done.err)
+            self.assertIn("beyond those that double holds", cli.unwrapped(done.err))
+
+    def test_numbers_too_long_for_a_certificate_are_surveyed_and_explained(self):
+        long = "1" * 41000 + "/" + "3" * 41001
+        file = self.file("p.json", {"A": [[long, 0], [0, 1]], "b": [-1, 3], "mu": 1})
+        for verb in ("survey", "explain"):
+            done = cli.run(verb, file, "--json")
+            self.assertIn(done.code, (0, 1, 3), done.err)
+            self.assertIn("that a checker would take", done.out)
+
+
 if __name__ == "__main__":
     cli.main()

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where it is proved that nothing solves a problem, no method calls forces its solution: also not forces that
+// grow along a direction that A does not see, until their rounding hides what acts.
+
+#include <catch2/catch.hpp>
+
+#include "certify/claims/existence.h"
+#include "certify/request/solve_in.h"
+#include "corpus/rounded.h"
+#include "solver/solve.h"
+#include "tests/support.h"
+
+namespace stiction {
+namespace {
+
+using namespace testing;
+
+// A = u u' of small integers, one or two contacts; b of small integers, which is in the range of A by accident.
+ExactProblem OfRankOne(std::uint64_t seed) {
+  Choices choices(seed);
+  ExactProblem problem;
+  const int contacts = choices.Integer(1, 2);
+  const bool has_friction = choices.Integer(0, 2) > 0;
+  const int rows = has_friction ? 2 * contacts : contacts + 1;
+  for (int i = 0; i < (has_friction ? contacts : rows); ++i)
+    problem.contacts.push_back({has_friction ? ContactKind::kStatic : ContactKind::kFrictionless,
+                                has_friction ? Rational(choices.Integer(1, 4), 2) : Rational(0),
+                                {}});
+  ExactMatrix u(rows, 1);
+  problem.b.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    u(i, 0) = choices.Integer(-9, 9);
+    problem.b[i] = choices.Integer(-5, 5);
+  }
+  problem.A = u * u.transpose();
+  return problem;
+}
+
+template <class Scalar>
+int CalledSolved(const ExactProblem& problem) {
+  int solved = 0;
+  for (const auto& method : Methods<Scalar>()) {
+    if (!method.In(problem.dimension).run) continue;
+    solved += Solve(Rounded<Scalar>(problem), method.name, {}).Solved();
+  }
+  return solved + Solve(Rounded<Scalar>(problem), kAutomatic, {}).Solved();
+}
+
+TEST_CASE("no solution: what is proved to have none is never called solved") {
+  int none = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const ExactProblem problem = OfRankOne(seed);
+    const Existence existence = DecideExistence(problem, {});
+    if (existence.certificate.is_null() || existence.certificate["claim"] != "no-solution") continue;
+    ++none;
+    CAPTURE(seed);
+    CHECK(CalledSolved<double>(problem) == 0);
+    CHECK(CalledSolved<float>(problem) == 0);
+    CHECK(CalledSolved<long double>(problem) == 0);
+  }
+  CHECK(none > 30);
+}
+
+TEST_CASE("no solution: forces of 1e14 that hide what acts are none") {
+  // 4 fN - 10 fF = 4 - e with fF <= 2 fN, and -10 fN + 25 fF = -5: b is not in the range.
+  const ExactProblem problem = MakeProblem({2}, {{4, -10}, {-10, 25}}, {-4, 5});
+  CHECK(CalledSolved<double>(problem) == 0);
+}
+
+}  // namespace
+}  // namespace stiction
