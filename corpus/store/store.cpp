@@ -17,6 +17,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/descriptor.h"
 #include "corpus/output_error.h"
+#include "corpus/printable.h"
 #include "corpus/store/store_rows.h"
 #include "solver/problem/check.h"
 
@@ -280,15 +281,16 @@ std::string CampaignSeal(const std::map<std::string, std::string>& rows) {
   int version = 0;
   const std::string& text = rows["version"];
   std::from_chars(text.data(), text.data() + text.size(), version);
-  const std::string way_out = version > kStoreVersion
-                                  ? "It is of a newer stiction: take that one"
-                                  : "It is of an older stiction" +
-                                        (rows.contains("build") ? ", " + rows["build"] : "") +
-                                        ": that one goes on with it and reports it";
+  const std::string way_out =
+      rows["format"] != kStoreFormat || version <= 0 ? "It is damaged, or no store: take a copy of it"
+      : version > kStoreVersion
+          ? "It is of a newer stiction: take that one"
+          : "It is of an older stiction" + (rows.contains("build") ? ", " + Printable(rows["build"]) : "") +
+                ": that one goes on with it and reports it";
   throw InputError(
       fmt::format("{}: found format {} version {}, expected {} version {}. {}, or search anew with "
                   "--store NEW_FILE",
-                  file, rows["format"], text, kStoreFormat, kStoreVersion, way_out));
+                  file, Printable(rows["format"]), Printable(text), kStoreFormat, kStoreVersion, way_out));
 }
 
 template <class Number>
@@ -297,7 +299,7 @@ Number NumberOf(const std::string& file, const char* what, const std::string& te
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, number);
   if (read.ec == std::errc() && read.ptr == end) return number;
-  throw InputError(fmt::format("{}: found {} '{}', expected {}", file, what, text, expected));
+  throw InputError(fmt::format("{}: found {} '{}', expected {}", file, what, Printable(text), expected));
 }
 
 }  // namespace
