@@ -271,11 +271,12 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
                          : BoundErrors(problem, answer.law, answer.f, gate);
   answer.a = problem.A * answer.f + problem.b;
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
-  // The rounding of forces so large moves rows by a part of what acts: nothing tells them from those that grow
-  // without end where there is no solution.
-  constexpr double kLent = 1.0 / 256;
-  const bool is_lost = is_finite && Pressing(problem, answer.f) * gate.tau * problem.rows() > kLent &&
-                       MissedBy(problem, answer) > kLent;
+  // Forces so large that their rounding moves rows by what acts, or by a part of it that is missed: nothing
+  // tells them from those that grow without end where there is no solution.
+  constexpr double kHidden = 1.0 / 4, kLent = 1.0 / 256;
+  const double hidden = is_finite ? Pressing(problem, answer.f) * gate.tau : 0;
+  const bool is_lost =
+      hidden > kHidden || (hidden * problem.rows() > kLent && MissedBy(problem, answer) > kLent);
   const bool passes = is_finite && !is_lost && answer.errors->Largest() <= bound;
   if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits
     answer.outcome = Outcome::kSolved;
