@@ -177,7 +177,7 @@ MEASUREMENTS = [
     Measurement("silent", "long", rungs.silent, "Answers called solved that are wrong, over many problems."),
     Measurement("gate", "long", bench.gate,
                 "What is called solved over inexact numbers, judged over rationals: by dial, and by method and "
-                "arithmetic; and what it costs to judge, beside LU."),
+                "arithmetic; before there was one gate, and now."),
     Measurement("peers-extremes", "minutes", rungs.peers_extremes,
                 "Answers of the packages of others along dials of extreme problems, judged over rationals.", PEERS),
     Measurement("peers", "long", bench.peers, "The methods beside the packages of others on random matrices.", PEERS),
