@@ -5,7 +5,10 @@
 // problems, one after another, the less of wall-clock time and processor time; LU (Eigen, partial pivoting,
 // with one solve) and the gate take turns at blocks.
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
+#include <algorithm>
 #include <iostream>
 
 #include "bench/family.h"

@@ -247,15 +247,17 @@ Errors<double> JudgeForces(const ContactProblem<Scalar>& problem, FrictionLaw la
   }
 }
 
-// MissedShare (problem/pressing.h), whose accelerations are not rounded to float.
+// HidesWhatActs (problem/pressing.h), whose accelerations are not rounded to float.
 template <class Scalar>
-double MissedBy(const ContactProblem<Scalar>& problem, const Answer<Scalar>& answer) {
-  if constexpr (std::is_same_v<Scalar, float>) {
-    const Eigen::VectorXd f = answer.f.template cast<double>();
-    const Eigen::VectorXd a = problem.A.template cast<double>() * f + problem.b.template cast<double>();
-    return MissedShare(problem, f, a);
+bool HidesWhatActsIn(const ContactProblem<Scalar>& problem, const Answer<Scalar>& answer, const Gate& gate) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return HidesWhatActs(problem, answer.f, answer.a, gate.tau);
   } else {
-    return MissedShare(problem, answer.f, answer.a);
+    const Eigen::VectorXd f = answer.f.template cast<double>();
+    Eigen::VectorXd a = answer.a.template cast<double>();
+    if constexpr (std::is_same_v<Scalar, float>)
+      a = problem.A.template cast<double>() * f + problem.b.template cast<double>();
+    return HidesWhatActs(problem, f, a, gate.tau);
   }
 }
 
@@ -271,12 +273,7 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
                          : BoundErrors(problem, answer.law, answer.f, gate);
   answer.a = problem.A * answer.f + problem.b;
   const bool is_finite = answer.f.allFinite() && answer.a.allFinite();
-  // Forces so large that their rounding moves rows by what acts, or by a part of it that is missed: nothing
-  // tells them from those that grow without end where there is no solution.
-  constexpr double kHidden = 1.0 / 4, kLent = 1.0 / 256;
-  const double hidden = is_finite ? Pressing(problem, answer.f) * gate.tau : 0;
-  const bool is_lost =
-      hidden > kHidden || (hidden * problem.rows() > kLent && MissedBy(problem, answer) > kLent);
+  const bool is_lost = is_finite && HidesWhatActsIn(problem, answer, gate);
   const bool passes = is_finite && !is_lost && answer.errors->Largest() <= bound;
   if (passes && answer.outcome == Outcome::kUndecided) {  // the method measured with less digits
     answer.outcome = Outcome::kSolved;

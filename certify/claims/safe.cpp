@@ -7,7 +7,9 @@
 
 #include "certify/claims/claim.h"
 #include "certify/claims/condition.h"
+#include "corpus/exact_number.h"
 #include "corpus/grouped.h"
+#include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
@@ -185,6 +187,12 @@ std::optional<bool> IsSafeIfSmall(const ExactProblem& problem) {
 
 Json SafetyCertificate(const ExactProblem& problem) {
   const Safety safety = DecideSafety(problem);
+  const bool too_long = std::ranges::any_of(safety.determinants, [](const Rational& value) {
+    return ToString(value).size() > kMostCharactersOfNumber;
+  });
+  if (too_long)
+    throw InputError(
+        "found a problem whose certificate of safety no checker would take, expected shorter numbers");
   const bool unsafe = safety.unsafe_word.has_value();
   Json witness;
   if (unsafe) {

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 
 #include "certify/claims/existence.h"
-#include "certify/request/solve_in.h"
 #include "corpus/rounded.h"
 #include "solver/solve.h"
 #include "tests/support.h"
@@ -15,7 +14,7 @@ namespace {
 
 using namespace testing;
 
-// A = u u' of small integers, one or two contacts; b of small integers, which is in the range of A by accident.
+// A = u u' of small integers, one or two contacts; b of small integers, seldom in the range of A.
 ExactProblem OfRankOne(std::uint64_t seed) {
   Choices choices(seed);
   ExactProblem problem;
@@ -62,9 +61,14 @@ TEST_CASE("no solution: what is proved to have none is never called solved") {
 }
 
 TEST_CASE("no solution: forces of 1e14 that hide what acts are none") {
-  // 4 fN - 10 fF = 4 - e with fF <= 2 fN, and -10 fN + 25 fF = -5: b is not in the range.
-  const ExactProblem problem = MakeProblem({2}, {{4, -10}, {-10, 25}}, {-4, 5});
-  CHECK(CalledSolved<double>(problem) == 0);
+  const ExactProblem wedge = MakeProblem({2}, {{4, -10}, {-10, 25}}, {-4, 5});
+  CHECK(CalledSolved<double>(wedge) == 0);
+  // Nor beside another body on which much acts, or which A does not see.
+  for (const Rational& mass : {Rational(1), Rational(1, 1000000), Rational(0)}) {
+    const ExactProblem both = MakeProblem(
+        {2, 1}, {{4, -10, 0, 0}, {-10, 25, 0, 0}, {0, 0, mass, 0}, {0, 0, 0, mass}}, {-4, 5, 1000000, 0});
+    CHECK(CalledSolved<double>(both) == 0);
+  }
 }
 
 }  // namespace

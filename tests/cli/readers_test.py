@@ -178,12 +178,14 @@ class Extremes(cli.TestCase):
             self.assertEqual(done.code, 2, done.err)
             self.assertIn("beyond those that double holds", cli.unwrapped(done.err))
 
-    def test_numbers_too_long_for_a_certificate_are_surveyed(self):
+    def test_numbers_too_long_for_a_certificate_are_surveyed_and_explained(self):
         long = "1" * 41000 + "/" + "3" * 41001
         file = self.file("p.json", {"A": [[long, 0], [0, 1]], "b": [-1, 3], "mu": 1})
-        done = cli.run("survey", file, "--json")
-        self.assertIn(done.code, (0, 1, 3), done.err)
-        self.assertIn("that a checker would take", done.out)
+        for verb in ("survey", "explain"):
+            done = cli.run(verb, file, "--json")
+            self.assertIn(done.code, (0, 1, 3), done.err)
+            self.assertIn("that a checker would take", done.out)
+        self.refuses("certify", file, "--claim", "safe", "-o", self.folder / "c.json", says="no checker would take")
 
 
 if __name__ == "__main__":
