@@ -18,6 +18,7 @@
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
+#include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/stopwatch.h"
 #include "solver/numeric/fast.h"
@@ -52,6 +53,11 @@ double MicrosecondsOf(const std::vector<Judged>& problems, Call call) {
 Json Row(int contacts, const BenchOptions& options) {
   const std::int64_t most = contacts <= 10 ? 400 : contacts <= 30 ? 100 : 20;
   const auto problems = SolvedProblems(contacts, std::min(options.problems.value_or(most), most), options.seed);
+  if (problems.empty())
+    throw InputError(
+        fmt::format("bench: gate-cost: found no problem of {} contacts that the fast method solves, expected "
+                    "more --problems",
+                    contacts));
   constexpr int kTurns = 50;
   progress::Begin(fmt::format("turns at {} contacts", contacts), kTurns);
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
@@ -60,7 +66,7 @@ Json Row(int contacts, const BenchOptions& options) {
   [[maybe_unused]] volatile double kept = 0;  // so that nothing is left out
   std::int64_t passed = 0;
   std::vector<double> lus, gates, ratios;
-  for (int turn = 0; turn < kTurns && !problems.empty(); ++turn) {
+  for (int turn = 0; turn < kTurns; ++turn) {
     lus.push_back(MicrosecondsOf(problems, [&](const Judged& judged) {
       lu.compute(judged.problem.A);
       kept = lu.solve(judged.problem.b)[0];
