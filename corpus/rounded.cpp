@@ -41,8 +41,9 @@ Contact<Scalar> RoundedContact(const Contact<Rational>& contact, std::size_t i) 
 }  // namespace
 
 RangeError::RangeError(const std::string& path, const Rational& found, std::string_view arithmetic)
-    : InputError(fmt::format("{}: found {}, expected a number that {} holds with all its digits", path,
-                             Shortened(ToString(found)), arithmetic)) {}
+    : InputError(fmt::format("{}: found {}, expected a number {}", path, Shortened(ToString(found)),
+                             abs(found) > 1 ? fmt::format("in the range of {}", arithmetic)
+                                            : fmt::format("that {} holds with all its digits", arithmetic))) {}
 
 template <class Scalar>
 ContactProblem<Scalar> Rounded(const ExactProblem& problem) {

@@ -27,7 +27,7 @@ bool EliminateRows(Matrix& M, Matrix& R) {
     const Rational pivot = M(k, k);
     if (pivot <= 0) return false;
     M.row(k) /= pivot;
-    R.row(k) /= pivot;
+    if (R.cols() > 0) R.row(k) /= pivot;
     for (int i = 0; i < size; ++i) {
       const Rational factor = M(i, k);
       if (i == k || factor == 0) continue;

@@ -17,6 +17,7 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include "certify/exact/line_process.h"
 #include "corpus/exact_problem.h"
@@ -78,10 +79,18 @@ std::string AsJson(const std::string& line) {
   return json;
 }
 
-// Forces as it wrote them; null is not finite, nor is what no double holds. Empty if this is no answer.
+// Forces as it wrote them; null is not finite, nor is what no double holds. Empty if this is no answer, or two.
 std::optional<SolverReply> ReadReply(const std::string& line, int rows) {
-  const Json json = Json::parse(AsJson(line), nullptr, false);
-  if (!json.is_object() || !json.contains("solved") || !json["solved"].is_boolean()) return std::nullopt;
+  std::set<std::string> keys;
+  bool is_one = true;
+  const auto look = [&](int depth, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1)
+      is_one = keys.insert(parsed.get<std::string>()).second && is_one;
+    return true;
+  };
+  const Json json = Json::parse(AsJson(line), look, false);
+  if (!is_one || !json.is_object() || !json.contains("solved") || !json["solved"].is_boolean())
+    return std::nullopt;
   SolverReply reply;
   reply.solved = json["solved"].get<bool>();
   reply.f = Eigen::VectorXd::Zero(rows);

@@ -131,6 +131,9 @@ TEST_CASE("solve: a number that an arithmetic does not hold is refused by its pl
   problem.b[0] = -1;
   problem.contacts[0].mu = PowerOfTen(400);
   CHECK(message(Arithmetic::kDouble).find("contacts[0].mu") == 0);
+  CHECK(message(Arithmetic::kDouble).find("expected a number in the range of double") != std::string::npos);
+  problem.contacts[0].mu = PowerOfTen(-400);
+  CHECK(message(Arithmetic::kDouble).find("that double holds with all its digits") != std::string::npos);
 }
 
 TEST_CASE("solve: forces at the end of the range of doubles do not stop the fast method over rationals") {

@@ -433,7 +433,7 @@ void CheckRedundant(int count) {
   CHECK(kept > static_cast<std::size_t>(count / 2));
 }
 
-TEST_CASE("redundant contacts: the quick search finds what comparing all with all finds") {
+TEST_CASE("redundant contacts: the quick search finds what comparing all with all finds", "[slow]") {
   CheckRedundant<double, 3>(3000);
   CheckRedundant<double, 6>(3000);
   CheckRedundant<Rational, 3>(200);

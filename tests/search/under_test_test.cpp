@@ -35,9 +35,10 @@ ContactProblem<double> OneContact(double mu, std::array<double, 2> own, std::arr
   return problem;
 }
 
-// The condition that is missed by more than 1e-6; "" of what passes.
+// The condition that is missed by more than 1e-6; "" of what passes. A problem of one row has no friction.
 std::string MissOf(const ContactProblem<double>& problem, SolverLaw law, double normal, double friction) {
-  return JudgeForces(problem, law, Rational(1, 1000000), Eigen::Vector2d(normal, friction)).miss;
+  const Eigen::Vector2d f(normal, friction);
+  return JudgeForces(problem, law, Rational(1, 1000000), f.head(problem.rows())).miss;
 }
 
 constexpr SolverLaw kLawsWithFriction[] = {SolverLaw::kBox, SolverLaw::kFindex, SolverLaw::kPyramid,
@@ -298,7 +299,8 @@ TEST_CASE("under test: what lacks forces or has too many is no answer, and a lac
   CHECK((tiny.end == SolverEnd::kAnswered && tiny.is_in_range && tiny.f[0] == 0));
   for (const char* const said :
        {R"({"solved": true})", R"({"solved": true, "f": [0, 0]})", R"({"solved": true, "f": []})",
-        R"({"solved": true, "f": ["0"]})", R"({"solved": true, "f": [true]})", "no"}) {
+        R"({"solved": true, "f": ["0"]})", R"({"solved": true, "f": [true]})",
+        R"({"solved": false, "f": [0], "solved": true})", R"({"solved": true, "f": [1], "f": [0]})", "no"}) {
     CAPTURE(said);
     CHECK(reply(said).how == "garbled");
   }

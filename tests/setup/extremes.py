@@ -16,6 +16,7 @@ import decimal
 import itertools
 import json
 import random
+import re
 import struct
 import subprocess
 import sys
@@ -211,7 +212,7 @@ def judge(program, file, problem, method, arithmetic, counts):
         return f"exit {done.returncode}: {done.stderr.strip()}"
     if done.returncode == 2:
         counts["refused"] += 1
-        return "" if "holds with all its digits" in done.stderr else f"refused: {done.stderr.strip()}"
+        return "" if re.search("holds with all its digits|in the range of", done.stderr) else f"refused: {done.stderr.strip()}"
     answer = json.loads(done.stdout)
     if answer["outcome"] != "solved" or done.returncode != 0:
         counts[answer["outcome"]] += 1

@@ -62,8 +62,8 @@ TEST_CASE("admm: it is Coulomb's law that is solved, not the convex law near it"
   CHECK((f - Eigen::Vector3d(2, 0, 2) / 3).norm() < 1e-6);
 }
 
-TEMPLATE_TEST_CASE("admm: problems of many kinds are solved, or undecided, never wrong", "", float, double,
-                   long double, Quad) {
+TEMPLATE_TEST_CASE("admm: problems of many kinds are solved, or undecided, never wrong", "[slow]", float,
+                   double, long double, Quad) {
   using enum GeneratorId;
   int solved = 0, runs = 0;
   for (const GeneratorId id : {kIntegers, kSmall, kBodies, kScenes, kBilateral, kSliding, kSpace}) {

@@ -249,7 +249,8 @@ Problem NoisyStack(int boxes, double noise, Choices& choices) {
   return problem;
 }
 
-TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are solved without polygons") {
+TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are solved without polygons",
+          "[slow]") {
   int solved = 0;
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
@@ -304,7 +305,7 @@ TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
   }
 }
 
-TEST_CASE("coulomb: asymmetric problems with repeated contacts are solved without polygons too") {
+TEST_CASE("coulomb: asymmetric problems with repeated contacts are solved without polygons too", "[slow]") {
   CoulombOptions options;
   options.sides = 0;
   CoulombSolver<double> solver(options);

@@ -532,7 +532,7 @@ TEST_CASE("space: the recorded direction is that of the friction force in NCF") 
   CHECK(recorded > 0);
 }
 
-TEST_CASE("space: of loops that doubles suspect intervals prove most, and deny none") {
+TEST_CASE("space: of loops that doubles suspect intervals prove most, and deny none", "[slow]") {
   int suspected = 0, proved = 0;
   for (int k = 0; k < 4000; ++k) {
     const ExactProblem problem = RandomInSpace(2 + k % 2, 5 * (k / 2) + 2 + k % 3);  // mu 1, 2, 5
