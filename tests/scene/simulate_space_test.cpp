@@ -349,7 +349,7 @@ TEST_CASE("simulate in space: a gate keeps to its hinge, and its energy but for 
   CheckFinerIsBetter(coarse, fine);
 }
 
-TEST_CASE("simulate in space: the piston of a slider-crank is where its crank says") {
+TEST_CASE("simulate in space: the piston of a slider-crank is where its crank says", "[slow]") {
   SimulationInSpace simulation = Started("slider-crank");
   double least = 2, greatest = 0;
   for (int i = 0; i < 1920; ++i) {
@@ -412,7 +412,7 @@ TEST_CASE("simulate in space: joined bodies in flight keep their momenta, and th
   }
 }
 
-TEST_CASE("simulate in space: on two hinges of one axis bodies move as on one") {
+TEST_CASE("simulate in space: on two hinges of one axis bodies move as on one", "[slow]") {
   for (SceneInSpace<double> scene :
        {Started("leaning-gate").scene(), JoinedInFlight(JointKindInSpace::kHinge)}) {
     SimulationOptions options;

@@ -38,7 +38,7 @@ double LargestMove(const Scene<double>& before, const Scene<double>& after) {
   return move;
 }
 
-TEST_CASE("simulate: a stack of five does not creep over 10,000 steps") {
+TEST_CASE("simulate: a stack of five does not creep over 10,000 steps", "[slow]") {
   CHECK(LargestMove(SceneInDoubles("stack"), Run("stack", 10000).scene()) < 1e-10);
 }
 
@@ -253,7 +253,7 @@ Scene<double> Arch(double thickness, int count) {
   return scene;
 }
 
-TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls below") {
+TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls below", "[slow]") {
   for (const double thickness : {0.1065, 0.1085}) {
     const Scene<double> scene = Arch(thickness, 30);
     Simulation simulation(scene);
@@ -332,7 +332,7 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
   }
 }
 
-TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes") {
+TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes", "[slow]") {
   SimulationOptions options;
   options.step = 1.0 / 120;
   Simulation feeder(SceneInDoubles("block-feeder"), options);
