@@ -122,7 +122,8 @@ TraceText TraceOf(std::string_view generator) {
 
 }  // namespace
 
-TEST_CASE("algorithm version: runs are those that were recorded under it, and so is what is counted of them") {
+TEST_CASE("algorithm version: runs are those that were recorded under it, and so is what is counted of them",
+          "[slow]") {
   REQUIRE(kRecordedVersion == kAlgorithmVersion);
   REQUIRE(kRecordedCounts == kCountsVersion);
   CHECK(AllRecorded().size() == kGeneratorCount);

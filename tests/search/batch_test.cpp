@@ -16,6 +16,7 @@
 #include "search/units/unit.h"
 #include "solver/problem/lenient.h"
 #include "solver/published/published.ipp"
+#include "tests/support.h"
 
 namespace stiction {
 namespace {
@@ -104,11 +105,13 @@ TEMPLATE_TEST_CASE_SIG(
     for (const GeneratorRow& row : Generators()) {
       if (!row.IsPlain()) continue;
       CAPTURE(row.name, Name(set));
-      const LaneComparison c = CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kDefaultPalette, 6000));
+      const LaneComparison c =
+          CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kDefaultPalette, testing::Few(6000)));
       CHECK(c.differ == 0);
       CHECK(c.left >= c.unsolved);
       CHECK(c.left < c.problems / 2);
-      const LaneComparison rough = CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kRoughPalette, 6000));
+      const LaneComparison rough =
+          CompareLanes<Rows>(set, DrawnProblems<Rows>(row.id, kRoughPalette, testing::Few(6000)));
       CHECK(rough.differ == 0);
       zero_steps += c.zero_steps + rough.zero_steps;
       singular += c.singular + rough.singular;

@@ -389,8 +389,8 @@ TEST_CASE("unit: where contacts slide or are bilateral, loops are found, certifi
   }
 }
 
-TEST_CASE(
-    "unit: in space loops are proved over intervals, minimized as such, and have the solution they miss") {
+TEST_CASE("unit: in space loops are proved over intervals, minimized as such, and have the solution they miss",
+          "[slow]") {
   Campaign campaign = Small(GeneratorId::kSpace, 2, 12000);
   campaign.policies = {Policy{}, ParsePolicy("slip=redirect")};
   campaign.audit_every = 1000;
