@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -61,26 +62,26 @@ std::vector<int> ExponentsOfContacts(const Problem& problem, const Groups& group
 template <class Problem>
 RowScale FindScale(const Problem& problem, bool uniform = false) {
   using Scalar = typename Problem::Vector::Scalar;
-  using std::ldexp;
+  constexpr int kNone = std::numeric_limits<int>::min();
   const int rows = problem.rows();
   Groups groups;
   groups.Find(problem);
   const std::vector<int> half = ExponentsOfContacts(problem, groups, uniform);
-  std::vector<Scalar> largest(problem.contacts.size(), Scalar(0));  // b in these units, by group
-  Scalar coupling(0), most(0);                                      // of A; b of all groups
+  std::vector<int> largest(problem.contacts.size(), kNone);  // exponents of b in these units, by group
+  int most = kNone;                                          // of all groups
   const auto group = [&](int i) { return uniform ? 0 : groups.OfRow(i); };
   for (int i = 0; i < rows; ++i) {
-    largest[group(i)] = std::max(largest[group(i)], Scalar(ldexp(Abs(problem.b[i]), -half[i])));
+    if (problem.b[i] == 0) continue;
+    largest[group(i)] = std::max(largest[group(i)], ExponentOf(Scalar(Abs(problem.b[i]))) - half[i]);
     most = std::max(most, largest[group(i)]);
   }
+  int rest = 0;  // of an A that is not semidefinite: entries beside the diagonal may be large beside it
   ForEachEntry(problem.A, [&](int i, int j, const Scalar& x) {
-    coupling = std::max(coupling, TimesPowerOfTwo(Scalar(Abs(x)), -half[i] - half[j]));
+    if (x != 0) rest = std::max(rest, ExponentOf(Scalar(Abs(x))) - half[i] - half[j]);
   });
-  // Of an A that is not semidefinite entries beside the diagonal may be large beside it.
-  const int rest = std::max(0, ExponentOf(coupling));
-  RowScale scale{std::vector<int>(rows), std::vector<int>(rows), ExponentOf(most)};
+  RowScale scale{std::vector<int>(rows), std::vector<int>(rows), most == kNone ? 0 : most};
   for (int i = 0; i < rows; ++i) {
-    const int b = ExponentOf(largest[group(i)]);
+    const int b = largest[group(i)] == kNone ? 0 : largest[group(i)];
     scale.a[i] = b + half[i];
     scale.f[i] = b - half[i] - rest;
   }

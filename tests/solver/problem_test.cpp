@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/problem/row_scale.h"
 #include "solver/published/published.h"
 #include "tests/support.h"
 
@@ -75,6 +76,24 @@ TEST_CASE("published algorithm: handles planar frictionless and static contacts,
     problem.contacts[1].kind = kind;
     CHECK_FALSE(PublishedHandles(problem));
   }
+}
+
+TEST_CASE("row scale: b is brought to about 1, too, where no double holds it in the units of A") {
+  ContactProblem<double> problem;
+  problem.contacts = {{ContactKind::kStatic, 1, {}}};
+  const double tiny = std::ldexp(1.0, -184), huge = std::ldexp(1.0, 1000);
+  problem.A = Eigen::Vector2d(tiny, tiny).asDiagonal();
+  problem.b = Eigen::Vector2d(-huge, 0);
+  CHECK(FindScale(problem).a == std::vector<int>{1000, 1000});
+  CHECK(FindScale(problem).f == std::vector<int>{1184, 1184});
+  CHECK(Scaled(problem, FindScale(problem)).b == Eigen::Vector2d(-1, 0));
+  CHECK(Scaled(problem, FindScale(problem)).A == Eigen::Matrix2d::Identity());
+  problem.b.setZero();
+  CHECK(FindScale(problem).a == std::vector<int>{-92, -92});
+  problem.b[1] = std::ldexp(1.0, -1070);  // a subnormal number
+  CHECK(FindScale(problem).a == std::vector<int>{-1070, -1070});
+  problem.A(0, 1) = huge;  // as no semidefinite A has it
+  CHECK(FindScale(problem).f == std::vector<int>{-2070, -2070});
 }
 
 }  // namespace
