@@ -22,11 +22,13 @@ namespace stiction::testing {
 using ExactVector = ExactProblem::Vector;
 using ExactMatrix = ExactProblem::Matrix;
 
-// Whether long tests are asked to be short, as in all builds of the matrix but the first.
-inline bool Short() {
+// STICTION_TESTS: "all" in the first build of the matrix and at night, "short" in the others.
+inline bool TestsAre(std::string_view asked) {
   const char* const tests = std::getenv("STICTION_TESTS");
-  return tests != nullptr && std::string_view(tests) == "short";
+  return tests != nullptr && tests == asked;
 }
+inline bool Short() { return TestsAre("short"); }
+inline bool All() { return TestsAre("all"); }
 
 // So many, or a quarter of them.
 inline int Few(int count) { return Short() ? count / 4 : count; }

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
-#include <string_view>
 
 #include "corpus/input_file.h"
 #include "tests/fuzz/degenerate.h"
@@ -27,11 +25,6 @@ std::string FaultOfEvery(const std::string& text) {
   }
 }
 
-bool All() {
-  const char* const tests = std::getenv("STICTION_TESTS");
-  return tests != nullptr && std::string_view(tests) == "all";
-}
-
 // Every n-th of them, from the first on.
 void CheckSome(const std::vector<std::string>& texts, std::size_t n) {
   for (std::size_t i = 0; i < texts.size(); i += n) {
@@ -44,7 +37,7 @@ TEST_CASE("every reader, method and writer takes problems without rows, columns,
   const std::vector<std::string> texts = DegenerateProblems();
   CHECK(texts.size() > 1000);
   // The steps are coprime to the numbers of loads, forms and contacts.
-  CheckSome(texts, testing::Short() ? 97 : All() ? 1 : 23);
+  CheckSome(texts, testing::Short() ? 97 : testing::All() ? 1 : 23);
 }
 
 TEST_CASE("every reader refuses a file that tells no sizes, by what it lacks") {
@@ -66,7 +59,7 @@ TEST_CASE("every reader, method and writer takes the small files of the corpus",
   }
   std::sort(files.begin(), files.end());
   CHECK(files.size() > 50);
-  for (std::size_t i = 0; i < files.size(); i += All() ? 1 : 3) {
+  for (std::size_t i = 0; i < files.size(); i += testing::All() ? 1 : 3) {
     CAPTURE(files[i]);
     CHECK(FaultOfEvery(ReadInput(files[i], kMostInputBytes)).empty());
   }
