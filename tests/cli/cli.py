@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 from pathlib import Path
@@ -19,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 os.environ["COLUMNS"] = "200"  # sentences stay on one line; terminal_test.py is about narrower ones
 SHORT = os.environ.get("STICTION_TESTS") == "short"  # builds of the matrix but the first
-ALL = os.environ.get("STICTION_TESTS") == "all"  # its first
+ALL = os.environ.get("STICTION_TESTS") == "all"  # its first, and at night
+PATIENCE = 120  # seconds until what should happen has happened, on a machine with other work
 # What is compared of two stores; `work` is another in every run.
 TABLES = {
     "campaign": "key",
@@ -195,6 +197,14 @@ class TestCase(unittest.TestCase):
         path = self.folder / name
         path.write_text(value if isinstance(value, str) else json.dumps(value))
         return path
+
+    def wait_until(self, holds):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if holds():
+                return
+            time.sleep(0.05)
+        self.fail("it does not get on")
 
     def succeeds(self, *arguments, code=0, **options):
         done = run(*arguments, **options)

@@ -7,9 +7,11 @@ run_test.py PATH_TO_STICTION
 import fcntl
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 
 import cli
 
@@ -100,15 +102,27 @@ class WhileAnotherBuilds(cli.TestCase):
         self.assertIn(b"waiting for another build", waited.exception.stderr)
 
 
+def function_of_run(name):
+    """A function of the script, as bash reads it."""
+    script = (cli.ROOT / "run").read_text()
+    function = script[script.index(f"\n{name}() {{") + 1:]
+    return function[:function.index("\n}\n") + 3]
+
+
+def is_gone(process):
+    """Or dead, where nobody waits for it."""
+    try:
+        return "State:\tZ" in Path(f"/proc/{process}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+
+
 class OfTests(cli.TestCase):
     def test_what_failed_is_shown_as_it_was_printed(self):
         failed = self.file("failed", "12:corpus case: a\n")
         log = self.file("log", "1/3 Testing: corpus case: ab\nfine\n2/3 Testing: corpus case: a\nbroken\nTest Failed.\n"
                                "3/3 Testing: corpus case: b\nfine\n")
-        script = (cli.ROOT / "run").read_text()
-        function = script[script.index("outputs_of_tests() {"):]
-        function = function[:function.index("\n}\n") + 3]
-        shown = subprocess.run(["bash", "-c", function + 'outputs_of_tests "$@"', "bash", failed, log], text=True,
+        shown = subprocess.run(["bash", "-c", function_of_run("outputs_of_tests") + 'outputs_of_tests "$@"', "bash", failed, log], text=True,
                                capture_output=True, check=True).stdout
         self.assertEqual(shown, "2/3 Testing: corpus case: a\nbroken\nTest Failed.\n")
 
@@ -131,6 +145,24 @@ class Nights(cli.TestCase):
         done = subprocess.run([cli.ROOT / "run", "test", "--nightly", "tests", "proof"], text=True, capture_output=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("found proof, expected steps among: build tests", done.stderr)
+
+    def test_an_interrupted_step_of_the_model_leaves_no_attacker(self):
+        attack, tests = self.folder / "tests/model/attack.py", self.folder / "build/release/tests/test_model"
+        for file in (attack, tests):
+            file.parent.mkdir(parents=True)
+        (self.folder / "build/nightly").mkdir()
+        number = self.folder / "number"  # of the attacker
+        attack.write_text(f"import os, pathlib, time\npathlib.Path({str(number)!r}).write_text(str(os.getpid()))\ntime.sleep(600)\n")
+        tests.write_text("#!/bin/sh\nsleep 60\n")
+        tests.chmod(0o755)
+        script = ("set -euo pipefail\ntrap 'exit 130' INT\nroot=$1\ncommit_number() { echo 1; }\n"
+                  + function_of_run("nightly_model") + "(nightly_model) 2>&1 | cat\n")
+        with subprocess.Popen(["bash", "-c", script, "bash", self.folder], start_new_session=True, stdout=subprocess.DEVNULL,
+                              preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)) as step:
+            self.wait_until(lambda: number.exists() and number.read_text())
+            os.killpg(step.pid, signal.SIGINT)  # as a terminal does
+            step.wait(30)
+        self.wait_until(lambda: is_gone(int(number.read_text())))
 
     def test_it_is_written_only_where_all_steps_are_of_the_program_with_nothing_uncommitted(self):
         for program, commits, missing in (("abcdef0", {"build": "abcdef0"}, "tests"),

@@ -273,10 +273,19 @@ def dearest(program):
 
 
 def nightly(program):
-    """Steps of a night, and its mutants: what the command wrote."""
+    """Steps of a night: what the command wrote."""
     program.show("./run test --nightly")
     subprocess.run([ROOT / "run", "test", "--nightly"])
     return front_matter((ROOT / "reports/measured/nightly.md").read_text())[1].split("\n\n", 1)[1].rstrip("\n")
+
+
+def mutants(program):
+    """By hand and drawn, and what survived."""
+    head = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    words = ["test", "--mutants", str(program.size(60)), "--seed", str(int(head, 16)), "--hand"]  # others for every commit
+    program.show(f"./run {' '.join(words)}")
+    printed = subprocess.run([ROOT / "run", *words], capture_output=True, text=True).stdout
+    return re.search(r"^\| \| bugs \|.*", printed, re.M | re.S)[0].strip()
 
 
 def shown(value):

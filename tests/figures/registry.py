@@ -177,7 +177,7 @@ MEASUREMENTS = [
     Measurement("silent", "long", rungs.silent, "Answers called solved that are wrong, over many problems."),
     Measurement("gate", "long", bench.gate,
                 "What is called solved over inexact numbers, judged over rationals: by dial, and by method and "
-                "arithmetic; before there was one gate, and now."),
+                "arithmetic; and what it costs to judge."),
     Measurement("peers-extremes", "minutes", rungs.peers_extremes,
                 "Answers of the packages of others along dials of extreme problems, judged over rationals.", PEERS),
     Measurement("peers", "long", bench.peers, "The methods beside the packages of others on random matrices.", PEERS),
@@ -187,7 +187,9 @@ MEASUREMENTS = [
                 "Scenes simulated beside Bullet, ODE, Box2D and MuJoCo: frames a second, what stands, drift, overlap.",
                 ENGINES),
     Measurement("nightly", "long", corpus.nightly,
-                "The last `./run test --nightly`: its steps, and bugs of one line that the tests notice."),
+                "The last `./run test --nightly`: its steps, how long each took and how it ended."),
+    Measurement("mutants", "long", corpus.mutants,
+                "Bugs of one line, by hand and drawn from covered lines, and whether a test notices them."),
     Measurement("structure-large", "long", bench.structure_large,
                 "The methods beside the packages of others on the walls of `corpus/scenes/large`.", PEERS),
 ]

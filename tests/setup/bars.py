@@ -96,9 +96,9 @@ def recipe_files(recipe):
 
 
 def survivors():
-    """Per cent of the drawn mutants of the last night that no test noticed; None where there was none."""
-    night = ROOT / "reports/measured/nightly.md"
-    found = night.exists() and re.search(r"^drawn, seed \d+: (\d+) of (\d+) noticed", text("reports/measured/nightly.md"), re.M)
+    """Per cent of the last drawn mutants that no test noticed; None where none were drawn."""
+    name = "reports/measured/mutants.md"
+    found = (ROOT / name).exists() and re.search(r"^drawn, seed \d+: (\d+) of (\d+) noticed", text(name), re.M)
     return round(100 - 100 * int(found[1]) / int(found[2]), 1) if found else None
 
 
@@ -137,13 +137,14 @@ def measures(build):
 
 
 def main():
-    passed = False
+    bars = passed = 0
     for what, found, most in measures(Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release")):
         over = found is not None and found > most
-        passed |= over
+        bars, passed = bars + 1, passed + over
         shown = "unknown" if found is None else f"{found:,}"
         print(f"{what:60} {shown:>10} {'bar' if found is None else 'over' if over else 'within':>7} {most:,}")
-    return passed
+    print(f"over {passed} of {bars} bars")
+    return passed > 0
 
 
 if __name__ == "__main__":

@@ -25,7 +25,8 @@ SAID = {
     "sanitizers": r"\d+ short tests passed",
     "threads": r"\d+ short tests passed",
     "traces": r"traces: (.*)",
-    "mutants": r"drawn, seed \d+: .*",
+    "model": r"All tests passed.*",
+    "bars": r"over \d+ of \d+ bars",
 }
 
 
@@ -40,13 +41,6 @@ def step(folder, name):
     return (name, f"{int(seconds) / 60:.1f}", ended, said[-1] if said else ""), int(seconds), commit
 
 
-def mutants(folder):
-    """The tables of mutate.py, and what survived."""
-    log = folder / "mutants.log"
-    found = log.exists() and re.search(r"^\| \| bugs \|.*", log.read_text(errors="replace"), re.M | re.S)
-    return f"\n\nThe mutants:\n\n{found[0].strip()}" if found else ""
-
-
 def main():
     folder, program, names = Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
     steps = [step(folder, name) for name in names]
@@ -55,7 +49,6 @@ def main():
     text = table(["step", "minutes", "ended", "said"], rows) + f"\n\n{minutes:.0f} minutes in all."
     failed = [row[0] for row in rows if row[2] != "passed"]
     others = [row[0] for row, _, of in steps if of != commit or "dirty" in commit]
-    text += "" if "mutants" in others else mutants(folder)
     print(text)
     if others:
         print(f"nightly: not written: the program is of {commit}; on that, with nothing uncommitted, were not run: {' '.join(others)}")
