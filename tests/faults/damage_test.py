@@ -153,7 +153,7 @@ class Damage(cli.TestCase):
         self.refuses("merge", "--salvage", out, text, says=text)
         self.assertFalse(out.exists())
         done = self.succeeds("merge", "--salvage", out, text, self.whole)
-        self.assertIn("1 whole stores", done.err)
+        self.assertIn("1 whole store\n", done.err)
         self.assertSameContent(out, self.whole)
 
     def test_the_manifest_of_a_report_is_of_every_file(self):
