@@ -60,6 +60,10 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
     return kept && (!options.signature ||
                     Signature(problem, RunExact(problem, {policy, {}, o.limits})) == *options.signature);
   };
+  if (!keep(candidate)) {
+    throw InputError(o.file, "--keep", std::string(Name(options.keep)),
+                     "an outcome of the problem that the choices in its origin make");
+  }
   const MinimizedCandidate minimized = MinimizeCandidate(candidate, keep);
   ProblemFile simple = FileOf(minimized.candidate, file.name + "-minimized");
   simple.expect = {{options.policies.size() > 1 ? "*" : PolicyName(policy), std::string(Name(options.keep))}};

@@ -33,7 +33,6 @@ class CandidateMinimizer {
                      const std::function<bool()>& cancelled)
       : keep_(keep), cancelled_(cancelled) {
     Take(candidate);
-    if (!keep(candidate)) throw InputError("minimize: the candidate does not show what is to be kept");
   }
 
   MinimizedCandidate Run() {

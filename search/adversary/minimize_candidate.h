@@ -21,7 +21,8 @@ struct MinimizedCandidate {
   bool cancelled = false;
 };
 
-// `keep` says whether a candidate still shows the finding. Requires keep(candidate), otherwise InputError.
+// `keep` says whether a candidate still shows the finding. The given one does: it is not asked again, since a
+// solver that answers by chance may not fail a second time.
 MinimizedCandidate MinimizeCandidate(
     const Candidate& candidate, const std::function<bool(const Candidate&)>& keep,
     const std::function<bool()>& cancelled = [] { return false; });

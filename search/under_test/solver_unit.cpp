@@ -228,14 +228,11 @@ class Promises {
   explicit Promises(const ExactProblem& found)
       : found_(found), moves_(EachRowMoves(found)), is_loaded_(!found.b.isZero()) {}
 
-  std::optional<std::string> LackOf(const ExactProblem& problem) const {
+  bool Hold(const ExactProblem& problem) const {
     const bool is_found = problem.rows() == found_.rows() && problem.A == found_.A && problem.b == found_.b;
-    if (is_found) return std::nullopt;  // of doubles, which are not quite what bodies make
-    if (moves_ && !EachRowMoves(problem)) return "a row of A has no entry above 0 on the diagonal";
-    if (is_loaded_ && problem.b.isZero()) return "b is zero";
-    if (!IsSymmetric(problem) || !IsPositiveSemidefinite(problem)) return "A is not what bodies make";
-    if (!IsInRange(problem)) return "b is not in range(A)";
-    return std::nullopt;
+    if (is_found) return true;  // of doubles, which are not quite what bodies make
+    if ((moves_ && !EachRowMoves(problem)) || (is_loaded_ && problem.b.isZero())) return false;
+    return IsSymmetric(problem) && IsPositiveSemidefinite(problem) && IsInRange(problem);
   }
 
  private:
@@ -339,14 +336,11 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   const Promises kept(problem);
   MinimizeOptions options;
   options.cancelled = cancelled;
-  options.lacks = [&](const ExactProblem& candidate) -> std::optional<std::string> {
+  options.keeps = [&](const ExactProblem& candidate) {
     const auto posed = InDoubles(candidate);
-    if (!posed) return "a number is no double";
-    if (auto lack = kept.LackOf(candidate)) return lack;
-    if (!fails(*posed)) return "it fails otherwise, or not at all";
-    return std::nullopt;
+    return posed && kept.Hold(candidate) && fails(*posed);
   };
-  if (again && !options.lacks(problem)) {  // also after a problem, as minimizing asks it
+  if (again && options.keeps(problem)) {  // also after a problem, as minimizing asks it
     Minimized minimized = Minimize(problem, options);
     if (minimized.cancelled || cancelled()) return std::nullopt;
     const Examined last = alone(minimized.problem);

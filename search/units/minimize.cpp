@@ -108,7 +108,9 @@ class Minimizer {
       : options_(options), result_{problem, 0, 0, false}, simplicity_(SimplicityOf(problem)) {}
 
   Minimized Run() {
-    if (const auto lack = Lacks(result_.problem)) throw InputError("minimize: " + *lack);
+    if (!options_.keeps) {
+      if (const auto lack = Lacks(result_.problem)) throw InputError("minimize: " + *lack);
+    }
     bool progress = true;
     while (progress && !Cancelled()) {
       progress = Try(WithoutBilateral(result_.problem));
@@ -128,7 +130,6 @@ class Minimizer {
  private:
   // What keeps a candidate from being interesting; empty if it is. Cheapest tests first.
   std::optional<std::string> Lacks(const ExactProblem& candidate) const {
-    if (options_.lacks) return options_.lacks(candidate);
     if (!IsSymmetric(candidate)) return "A is not symmetric";
     if (!IsPositiveSemidefinite(candidate)) return "A is not positive semidefinite";
     if (!IsInRange(candidate)) return "b is not in range(A)";
@@ -172,7 +173,7 @@ class Minimizer {
     const Simplicity simplicity = SimplicityOf(candidate);
     if (!(simplicity < simplicity_)) return false;
     ++result_.candidates;
-    if (Lacks(candidate)) return false;
+    if (options_.keeps ? !options_.keeps(candidate) : Lacks(candidate).has_value()) return false;
     ++result_.accepted;
     result_.problem = candidate;
     simplicity_ = simplicity;

@@ -52,8 +52,9 @@ struct MinimizeOptions {
   std::optional<std::int64_t> period;
   // Further than one change at a time goes: seconds to minutes more, so not for every finding of a search.
   bool further = false;
-  // In place of all that: what keeps a problem from being interesting; empty if it is. All that is asked.
-  std::function<std::optional<std::string>(const ExactProblem&)> lacks = {};
+  // In place of all that: whether a candidate is as interesting. Not asked of the problem itself, of which it
+  // holds: what is minimized of a solver that answers by chance may not hold a second time.
+  std::function<bool(const ExactProblem&)> keeps = {};
   Limits limits;
   std::function<bool()> cancelled = [] { return false; };
 };
@@ -65,8 +66,8 @@ struct Minimized {
   bool cancelled = false;
 };
 
-// Requires: the problem is interesting itself; otherwise InputError that says what it lacks. In space policies
-// that the published algorithm reads there (PublishedReadsInSpace).
+// Requires: the problem is interesting itself; otherwise, but for `keeps`, InputError that says what it lacks.
+// In space policies that the published algorithm reads there (PublishedReadsInSpace).
 Minimized Minimize(const ExactProblem& problem, const MinimizeOptions& options);
 
 }  // namespace stiction

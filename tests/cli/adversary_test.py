@@ -31,6 +31,7 @@ class Adversary(cli.TestCase):
         self.assertEqual(len(mu), 1)
         self.succeeds("replay", best, "--json", code=1)
         self.succeeds("minimize", best, "--as-scene", "-o", simple)
+        self.refuses("minimize", best, "--as-scene", "--keep", "solved", "-o", "-", says=["--keep", "solved", "choices"])
         simpler = json.loads(simple.read_text())
         self.assertIn("scene", simpler)
         self.assertEqual(simpler["expect"], {"paper": "cycle"})

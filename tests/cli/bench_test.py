@@ -305,7 +305,7 @@ class Peers(cli.TestCase):
         for words in ["OPENBLAS_NUM_THREADS=1", "threads of this process: 1", "another law", "native",
                       "stack of 10 boxes: 20 contacts, 40 rows of rank 30, 2 problems", "processor time of all threads"]:
             self.assertIn(words, done.out)
-        self.assertRegex(done.out, r"(?m)^  auto +\d+\.\d\d +\(.*100 % of 2$")
+        self.assertRegex(done.out, r"(?m)^  auto +\d+\.\d\d +\(.*100 % of 2, 2 by fast$")
 
     def test_families_and_their_scenes_are_asked_for_by_name(self):
         err = self.refuses("bench", "--suite", "structure", "--families", "tower", says=["found 'tower'", "wall-6x5"]).err
@@ -319,7 +319,7 @@ class Peers(cli.TestCase):
         self.assertEqual([table["name"] for table in tables], [*GROWTH, *WALLS])
         for table in tables[2:]:
             in_space = table["name"].endswith("space")
-            self.assertEqual([point["contacts"] for point in table["points"]], [24, 24] if in_space else [12, 12])
+            self.assertEqual([point["contacts"] for point in table["points"]], [16, 16] if in_space else [8, 8])
         for table in tables[:2]:
             points = {(point["method"], point["contacts"]): point for point in table["points"]}
             for method in ["published", "complete"]:

@@ -210,10 +210,10 @@ inline std::string KindOf(const std::string& fault) { return fault.substr(0, fau
 // The smallest problem found with a fault of the same kind, as text.
 inline std::string Shrunk(const ExactProblem& problem, const std::string& fault) {
   MinimizeOptions options;
-  options.lacks = [kind = KindOf(fault)](const ExactProblem& candidate) -> std::optional<std::string> {
+  options.keeps = [kind = KindOf(fault)](const ExactProblem& candidate) {
     std::string found = FaultInForms(candidate);
     if (found.empty()) found = FaultIn(candidate);
-    return KindOf(found) == kind && !found.empty() ? std::nullopt : std::optional<std::string>("the fault");
+    return KindOf(found) == kind && !found.empty();
   };
   ProblemFile file;
   file.name = "shrunk";

@@ -51,7 +51,9 @@ TEST_CASE("minimize candidate: a scene becomes a simpler scene with the same out
   const MinimizedCandidate again = MinimizeCandidate(minimized.candidate, StillCycles);
   CHECK(again.candidate == minimized.candidate);
   CHECK(again.accepted == 0);
-  CHECK_THROWS_AS(MinimizeCandidate(found, [](const Candidate&) { return false; }), InputError);
+  const MinimizedCandidate never_again = MinimizeCandidate(found, [](const Candidate&) { return false; });
+  CHECK(never_again.candidate == MinimizeCandidate(found, StillCycles, [] { return true; }).candidate);
+  CHECK(never_again.accepted == 0);
   const MinimizedCandidate stopped = MinimizeCandidate(found, StillCycles, [] { return true; });
   CHECK(stopped.cancelled);
   CHECK(stopped.accepted == 0);
