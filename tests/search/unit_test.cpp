@@ -35,7 +35,8 @@
 #else
 #define STICTION_HAS_FEATURE(feature) 0
 #endif
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !STICTION_HAS_FEATURE(address_sanitizer)
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !STICTION_HAS_FEATURE(address_sanitizer) && !STICTION_HAS_FEATURE(thread_sanitizer)
 #define STICTION_COUNTS_ALLOCATIONS
 namespace {
 std::atomic<std::int64_t> allocations = 0;

@@ -28,7 +28,10 @@ struct StictionSolver : btMLCPSolverInterface {
     for (int i = 0; i < n * n; ++i) ours[i] = A(row[i / n], row[i % n]), free[i / n] = -b[row[i / n]];
     const stiction_dense problem = {3, count, contacts.data(), nullptr, n, 0, ours.data(), free.data()};
     stiction_answer answer = {f.data(), nullptr, nullptr, {}, 0, nullptr};
-    if (stiction_solve_dense(context, &problem, nullptr, &answer) != STICTION_SOLVED) return false;
+    stiction_options options;
+    stiction_default_options(&options, sizeof options);
+    options.noise = 1e-9;  // m/s: rounding of depths, over the length of the step
+    if (stiction_solve_dense(context, &problem, &options, &answer) != STICTION_SOLVED) return false;
     for (int i = 0; i < n; ++i) x[row[i]] = f[i];
     return true;
   }
