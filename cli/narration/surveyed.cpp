@@ -20,6 +20,7 @@
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
 #include "certify/request/solve_sparse.h"
+#include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
 #include "solver/problem/check.h"
 #include "solver/problem/errors.h"
@@ -129,8 +130,13 @@ Json RunToJson(const Answer<Scalar>& answer, const Stopwatch& watch) {
   return run;
 }
 
+// Of a problem that doubles do not hold.
+Json NotTried(const std::string& method, const RangeError& error) {
+  return {{"method", method}, {"outcome", "not tried"}, {"reason", error.what()}};
+}
+
 // What solves over doubles, judged on the problem as it is given: its rounding is the method's, too.
-Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) {
+Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) try {
   const SolveRequest request{
       .method = method, .arithmetic = Arithmetic::kDouble, .options = {.limits = limits}, .confirm = false};
   const Stopwatch watch(CLOCK_MONOTONIC);
@@ -140,10 +146,12 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
   run["residual"] = VerifiedResidual(problem, answer.f);
   if (answer.Solved() && !(run["residual"] <= kWrong)) run["outcome"] = "wrong";
   return run;
+} catch (const RangeError& error) {
+  return NotTried(method, error);
 }
 
 // What `solve` does by default.
-Json RunByDefault(const ExactProblem& problem, const Limits& limits) {
+Json RunByDefault(const ExactProblem& problem, const Limits& limits) try {
   SolveRequest request{.options = {.limits = limits}};
   request.arithmetic = UsualArithmetic(request.method, problem).arithmetic;
   const Stopwatch watch(CLOCK_MONOTONIC);
@@ -155,6 +163,8 @@ Json RunByDefault(const ExactProblem& problem, const Limits& limits) {
         return run;
       },
       solution.answer);
+} catch (const RangeError& error) {
+  return NotTried("auto", error);
 }
 
 bool IsDecided(const Json& runs) {
@@ -297,7 +307,7 @@ Json PlanarRuns(const ExactProblem& problem, const SurveyScope& o) {
 }
 
 // A certificate of Coulomb's law up to a bound.
-Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
+Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) try {
   SpaceOptions options;
   options.law = FrictionLaw::kCoulomb;
   options.limits = limits;
@@ -319,6 +329,8 @@ Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) {
   run["cosine gap"] = ToDouble(Rational(1 - *solution.bound));
   run["residual"] = VerifiedResidual(problem, solution.f);
   return run;
+} catch (const RangeError& error) {
+  return NotTried("complete", error);
 }
 
 Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {

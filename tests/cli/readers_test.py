@@ -48,6 +48,13 @@ class Readers(cli.TestCase):
             self.succeeds("explain", file)
             self.succeeds("survey", file, "--json")
 
+    def test_a_survey_of_numbers_that_doubles_do_not_hold_says_what_was_not_tried(self):
+        file = self.file("large.json", {"A": [[1, 0, 0], [0, 1, 0], [0, 0, "1e600"]], "b": [-1, 0, 0], "mu": 1})
+        runs = self.succeeds("survey", file, "--json").json()[0]["runs"]
+        self.assertEqual({run["outcome"] for run in runs}, {"not tried"})
+        self.assertIn("in the range of double", runs[0]["reason"])
+        self.assertIn("not tried", self.succeeds("survey", file).out)
+
     def test_a_problem_of_no_contacts_has_a_method_a_sentence_and_a_survey(self):
         file = PROBLEMS / "empty.json"
         answer = self.succeeds("solve", file, "--json").json()
