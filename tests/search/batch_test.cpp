@@ -116,8 +116,8 @@ TEMPLATE_TEST_CASE_SIG(
       zero_steps += c.zero_steps + rough.zero_steps;
       singular += c.singular + rough.singular;
     }
-    CHECK(zero_steps > 0);  // several in a row
-    CHECK(singular > 0);
+    CHECK(zero_steps > (testing::Short() ? 0 : 3));  // several in a row
+    CHECK(singular > (testing::Short() ? 0 : 5));
   }
 }
 
