@@ -284,8 +284,11 @@ def mutants(program):
     head = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     words = ["test", "--mutants", str(program.size(60)), "--seed", str(int(head, 16)), "--hand"]  # others for every commit
     program.show(f"./run {' '.join(words)}")
-    printed = subprocess.run([ROOT / "run", *words], capture_output=True, text=True).stdout
-    return re.search(r"^\| \| bugs \|.*", printed, re.M | re.S)[0].strip()
+    done = subprocess.run([ROOT / "run", *words], capture_output=True, text=True)
+    told = re.search(r"^\| \| bugs \|.*", done.stdout, re.M | re.S)
+    if not told:
+        sys.exit(f"mutants: exit {done.returncode}\n{done.stdout}{done.stderr}")
+    return told[0].strip()
 
 
 def shown(value):
