@@ -72,8 +72,9 @@ int RankOf(const ExactProblem& problem) {
   return system.rank();
 }
 
-// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop.
-Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
+// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space where
+// doubles do not hold the problem.
+Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
   Wanted wanted;
   wanted.method = "baraff";
   wanted.options.limits = o.limits;
@@ -100,6 +101,8 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) {
   if (by_intervals) found["loops"].update(EndToJson(*proved));
   found["loops"]["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
   return found;
+} catch (const InputError&) {
+  return nullptr;
 }
 
 // How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
@@ -117,6 +120,13 @@ Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOption
   };
   std::visit(add, SolveAsked(file.problem, request, o.file).answer);
   return run;
+}
+
+// How `solve` ends on it by default. Where it refuses, as it does in space of numbers that no double holds, why.
+Json EndByDefault(const ProblemFile& file, const ExplainOptions& o) try {
+  return EndOf(kAutomatic, file, o);
+} catch (const InputError& error) {
+  return {{"method", kAutomatic}, {"outcome", "not tried"}, {"reason", error.what()}};
 }
 
 // How every method ends that is built for such a problem, in its usual arithmetic.
@@ -154,8 +164,9 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
     const Json& safety = found["safety"];
     found["safe_below"] = safety.contains("threshold") ? safety["threshold"]["low"] : Json();
   }
+  if (!handled) return;
   const Json& loop = found["policies"]["loops"];
-  if (!handled || loop.is_null()) return;
+  if (loop.is_null()) return;
   const auto radius = RadiusOfLoop(problem, {ParsePolicy(loop["policy"].get<std::string>()), {}, o.limits});
   found["radius"] = radius ? Json(ToString(*radius)) : Json();
 }
@@ -246,12 +257,13 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
     std::string policy = "paper";
     found["rank"] = RankOf(problem);
     found["methods"] = MethodsOn(*file, o);
-    found["solve"] = EndOf(kAutomatic, *file, o);
+    found["solve"] = EndByDefault(*file, o);
     if (problem.contacts.size() <= kFewContacts) {
-      found["policies"] = PoliciesOn(problem, o);
+      const Json policies = PoliciesOn(problem, o);
+      if (!policies.is_null()) found["policies"] = policies;
       if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
       AddMargins(problem, o, found);
-      if (const Json& loop = found["policies"]["loops"]; !loop.is_null()) policy = loop["policy"];
+      if (policies.contains("loops") && !policies["loops"].is_null()) policy = policies["loops"]["policy"];
     }
     found["claims"] = ClaimsOf(*file, o, policy);
   }

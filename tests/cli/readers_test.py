@@ -55,6 +55,16 @@ class Readers(cli.TestCase):
         self.assertIn("in the range of double", runs[0]["reason"])
         self.assertIn("not tried", self.succeeds("survey", file).out)
 
+    def test_explain_tells_what_else_is_known_of_numbers_that_doubles_do_not_hold(self):
+        matrix = [[2, 1, 0], [1, 2, 0], [0, 0, "1e600"]]
+        file = self.file("large.json", {"A": matrix, "b": [-1, 0, 0], "mu": 1, "dimension": 3})
+        found = self.succeeds("explain", file, "--json").json()
+        self.assertEqual((found["solve"]["outcome"], found["rank"]), ("not tried", 3))
+        self.assertIn("A[2][2]", found["solve"]["reason"])
+        self.assertNotIn("policies", found)
+        self.assertIn("psd", [claim["certificate"] for claim in found["claims"]])
+        self.assertIn("large.json", self.succeeds("explain", file).out)
+
     def test_a_problem_of_no_contacts_has_a_method_a_sentence_and_a_survey(self):
         file = PROBLEMS / "empty.json"
         answer = self.succeeds("solve", file, "--json").json()

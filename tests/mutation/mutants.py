@@ -228,9 +228,9 @@ bug("check_unsafe", "py-unsafe", "value <= 0", "True", "unsafe: a positive deter
 
 bug("AddFriction", "solver-drives", "force * a > 0", "force * a < 0", "friction that drives the slip is called less than its limit")
 bug("TakeOutIdle", "solver-idle", "largest > accuracy * accuracy", "false", "any force of idle contacts is none")
-bug("LackOf", "solver-hypotheses", "!IsSymmetric(problem) || !IsPositiveSemidefinite(problem)", "!IsSymmetric(problem)",
+bug("Hold", "solver-hypotheses", "IsSymmetric(problem) && IsPositiveSemidefinite(problem)", "IsSymmetric(problem)",
     "a finding is minimized to a problem that is not semidefinite")
-bug("LackOf", "solver-row", "moves_ && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
+bug("Hold", "solver-row", "moves_ && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
 bug("FailsAlike", "solver-alike", "examined.kind == sought_.kind && examined.what == sought_.what",
     "examined.kind == sought_.kind", "a finding is minimized to another failure of its kind")
 bug("FailsAlike", "solver-clear", "examined.error >= least_", "true", "a finding is minimized to the edge of the accuracy")
