@@ -39,8 +39,8 @@ const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
       rank?: integer,
       methods?: [{method: method, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
                   period?: integer, unique_accelerations?: false}],
-      solve?: {method: text, arithmetic: arithmetic, outcome: outcome, reason?: text, start?: integer,
-               period?: integer, unique_accelerations?: false},  // what `solve` says by default
+      solve?: {method: text, arithmetic: arithmetic, outcome: outcome | "not tried", reason?: text,
+               start?: integer, period?: integer, unique_accelerations?: false},  // what `solve` says by default
       policies?: {all: integer, arithmetic: arithmetic, outcomes: {*: integer},
                   loops: {outcome: outcome, start: integer, period: integer, policy: text, proved: truth,
                           kind: "states" | "box", reason?: text} | null},

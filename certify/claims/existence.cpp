@@ -13,6 +13,7 @@
 #include "certify/exact/filtered.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/rounded.h"
 
 namespace stiction {
 
@@ -56,10 +57,15 @@ Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const
   std::vector<std::string> ends;
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
-    const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits, .law = law});
-    if (answer.Solved() && answer.bound != Rational(0)) return Solved(problem, answer);
-    ends.push_back(answer.Solved() ? std::string(method.name) + ": forces without a bound on the angle of slip"
-                                   : HowItEnded(answer));
+    try {
+      const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits, .law = law});
+      if (answer.Solved() && answer.bound != Rational(0)) return Solved(problem, answer);
+      ends.push_back(answer.Solved()
+                         ? std::string(method.name) + ": forces without a bound on the angle of slip"
+                         : HowItEnded(answer));
+    } catch (const RangeError& error) {  // Coulomb's law is solved over doubles before it is exactly
+      ends.push_back(std::string(method.name) + ": " + error.what());
+    }
   }
   const Enumeration modes = RefuteInSpace(problem, options);
   if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};

@@ -72,8 +72,8 @@ int RankOf(const ExactProblem& problem) {
   return system.rank();
 }
 
-// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space where
-// doubles do not hold the problem.
+// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space
+// where doubles do not hold the problem.
 Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
   Wanted wanted;
   wanted.method = "baraff";
@@ -122,11 +122,16 @@ Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOption
   return run;
 }
 
-// How `solve` ends on it by default. Where it refuses, as it does in space of numbers that no double holds, why.
+// How `solve` ends on it by default. Where it refuses, as it does in space of numbers that no double holds,
+// why.
 Json EndByDefault(const ProblemFile& file, const ExplainOptions& o) try {
   return EndOf(kAutomatic, file, o);
 } catch (const InputError& error) {
-  return {{"method", kAutomatic}, {"outcome", "not tried"}, {"reason", error.what()}};
+  const Arithmetic arithmetic = UsualArithmetic(kAutomatic, file.problem).arithmetic;
+  return {{"method", kAutomatic},
+          {"arithmetic", Name(arithmetic)},
+          {"outcome", "not tried"},
+          {"reason", error.what()}};
 }
 
 // How every method ends that is built for such a problem, in its usual arithmetic.
@@ -218,7 +223,8 @@ Json NextOf(const Json& found, const std::string& file) {
     next.push_back(
         {{"command", fmt::format("stiction {} {}{}", verb, ShellWord(file), options)}, {"shows", shows}});
   };
-  add("solve", "", CertificateFor(found, "existence") == "no-solution" ? "why there are none" : "the forces");
+  if (!found.contains("solve") || found["solve"]["outcome"] != "not tried")
+    add("solve", "", CertificateFor(found, "existence") == "no-solution" ? "why there are none" : "the forces");
   // What fails over doubles does so there alone.
   const auto named = FindNamed(file);
   const bool of_doubles = named && IsOfDoubles(named->finding.kind);
@@ -312,6 +318,8 @@ std::string ExistenceText(const Json& found) {
   if (existence == "solution-exists") return yes + "Forces that meet every condition are found, exactly.";
   if (existence == "coulomb-solution")
     return yes + "Forces are found that obey Coulomb's law within a proved bound on the angle of slip.";
+  if (CertificateFor(found, "solution-exists") == "solution-exists")
+    return yes + "Forces that meet the paper's conditions in space, (21) and (22), are found, exactly.";
   return text.empty() ? "Nothing that was run proves that there is one, or none."
                       : text + "No exact forces are found here.";
 }

@@ -63,7 +63,13 @@ class Readers(cli.TestCase):
         self.assertIn("A[2][2]", found["solve"]["reason"])
         self.assertNotIn("policies", found)
         self.assertIn("psd", [claim["certificate"] for claim in found["claims"]])
-        self.assertIn("large.json", self.succeeds("explain", file).out)
+        self.assertNotIn("solve", [each["command"].split()[1] for each in found["next"]])
+        text = cli.unwrapped(self.succeeds("explain", file).out)
+        self.assertIn("Forces that meet the paper's conditions in space, (21) and (22), are found, exactly.", text)
+        for claim, word in (("existence", "exists"), ("solution-exists", "solution-exists")):
+            certificate = self.folder / f"{claim}.json"
+            self.succeeds("certify", file, "--claim", claim, "-o", certificate)
+            self.assertIn(f"accepted: {word},", self.succeeds("check", certificate, "--problem", file).out)
 
     def test_a_problem_of_no_contacts_has_a_method_a_sentence_and_a_survey(self):
         file = PROBLEMS / "empty.json"
