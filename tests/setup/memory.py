@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A night, shortened, and how it grows: resident memory and size of the store of one search, by hand.
+"""How a night grows: resident memory and size of the store of one search, by hand.
 
   tests/setup/memory.py PROGRAM [--campaign FILE] [--minutes M ...] [--night N] [--threads T] [--json]
 
-At every mark: problems, groups, memory now and at most so far, the store with its log. What a night of N minutes comes to
-is told from the growth between the last two marks, by problem: no less, where the growth falls with time.
+At every mark: problems, groups, memory now and at most so far, the store with its log. With --night also what N minutes
+would come to, from the growth between the last two marks, by problem: no less, where the growth falls with time.
 """
 import argparse
 import json
@@ -82,20 +82,20 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--campaign", default=NIGHT)
     parser.add_argument("--minutes", type=float, nargs="+", default=[1, 10, 60])
-    parser.add_argument("--night", type=float, default=480)
+    parser.add_argument("--night", type=float)
     parser.add_argument("--threads", type=int)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    if len(options.minutes) < 2:
-        parser.error("--minutes: found one mark, expected two or more: growth is told between two")
+    if options.night and len(options.minutes) < 2:
+        parser.error("--minutes: found one mark, expected two or more: --night goes by the growth between two")
     with tempfile.TemporaryDirectory(prefix="stiction-memory-") as folder:
         samples = watch(os.path.abspath(options.program), options.campaign, options.minutes, options.threads,
                         pathlib.Path(folder))
-    told = night(samples, options.night)
+    told = [night(samples, options.night)] if options.night else []
     if options.json:
-        print(json.dumps({"samples": samples, "night": told}))
+        print(json.dumps({"samples": samples, "told": told}))
     else:
-        for line in (HEAD, *map(row, samples), row(told)):
+        for line in (HEAD, *map(row, [*samples, *told])):
             print("  ".join(f"{cell:>24}" for cell in line))
 
 
