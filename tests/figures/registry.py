@@ -130,7 +130,7 @@ MEASUREMENTS = [
     Measurement("existence", "minutes", search.existence,
                 "Whether every problem is solved, and whether all methods agree, where every problem is run exactly."),
     Measurement("night", "long", search.night,
-                "How memory and store of a search of ninety minutes grow."),
+                "How memory and store of a search grow, as it runs."),
     Measurement("scaling", "minutes", search.scaling, "Merging the shards of a campaign, at once and as a tree."),
     Measurement("plan", "minutes", search.plan, "What 10^13 problems would take."),
     Measurement("growth", "minutes", bench.growth,
