@@ -120,11 +120,11 @@ std::optional<std::string> MissOf(const ExactProblem& given, Arithmetic arithmet
   return MissOf(given, answer.f.unaryExpr([](double x) { return Rational(x); }), answer.law, gate);
 }
 
-SolveRequest RequestOf(const GateCell& cell) {
-  SolveRequest request;
+Request RequestOf(const GateCell& cell) {
+  Request request;
   request.method = cell.method;
   request.arithmetic = cell.arithmetic;
-  request.options.limits.drives = request.options.limits.pivots = kMostSteps;
+  request.limits.drives = request.limits.pivots = kMostSteps;
   request.confirm = false;
   return request;
 }
@@ -255,8 +255,7 @@ SilentCounts NoneOf(const Source& any) {
   using enum Arithmetic;
   SilentCounts counts;
   for (const std::string_view method : {"complete", "lemke", "fast", "baraff"}) {
-    counts.methods.push_back(
-        CellsOf(any, 2, {method}, {kFloat, kDouble, kLongDouble, kQuad, kFiltered, kExact}));
+    counts.methods.push_back(CellsOf(any, 2, {method}, {kFloat, kDouble, kQuad, kFiltered, kExact}));
   }
   return counts;
 }
@@ -329,7 +328,7 @@ int BenchGate(const BenchOptions& o) {
     progress::Begin(fmt::format("{} at {}", source.family, source.setting), problems);
     const int dimension = source.make(o.seed, 0).dimension;
     std::vector<GateCell> of_source =
-        CellsOf(source, dimension, AllOverDoubles(), {kFloat, kDouble, kLongDouble, kQuad, kFiltered});
+        CellsOf(source, dimension, AllOverDoubles(), {kFloat, kDouble, kQuad, kFiltered});
     for (std::int64_t index = 0; index < problems; ++index) {
       const RungProblem problem(source.make(o.seed, index));
       for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);

@@ -138,14 +138,14 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   Json rows = Json::array();
   bool all = true;
   for (const Policy& policy : PoliciesAsked(o.policy, file.problem.dimension)) {
-    const PublishedOptions options = {policy, {}, o.limits};
+    const Request request = {.policy = policy, .limits = o.limits};
     const std::string name = PolicyName(policy);
-    const auto radius = RadiusOfLoop(file.problem, options);
+    const auto radius = RadiusOfLoop(file.problem, request);
     Json& row = rows.emplace_back(Json{{"policy", name}, {"radius", RadiusToJson(radius)}});
     all = all && radius;
     if (!o.json) ShowRadiusOf(name, radius, "A, b, mu", "A, b: of the largest entry");
     if (!scene) continue;
-    const auto of_scene = RadiusOfSceneLoop(*scene, options);
+    const auto of_scene = RadiusOfSceneLoop(*scene, request);
     row["scene_radius"] = RadiusToJson(of_scene);
     all = all && of_scene;
     if (!o.json) ShowRadiusOf(name, of_scene, "scenes", "lengths: of the largest arm; angles in radians");

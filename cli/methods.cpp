@@ -24,18 +24,18 @@ std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
 
 std::string Table() {
   std::vector<std::string> head = {"method"};
-  for (const Arithmetic arithmetic : kShownArithmetics) head.emplace_back(Name(arithmetic));
+  for (const Arithmetic arithmetic : kArithmetics) head.emplace_back(Name(arithmetic));
   TextTable table(std::move(head), 1);
   std::size_t refused = 0;
   for (const MethodFacts& facts : AllMethods()) {
     std::vector<std::string> cells = {std::string(facts.name)};
-    for (const Arithmetic arithmetic : kShownArithmetics) {
+    for (const Arithmetic arithmetic : kArithmetics) {
       cells.push_back(WhereBuilt(facts, arithmetic));
       for (const int dimension : {2, 3}) refused += !facts.IsBuilt(dimension, arithmetic);
     }
     table.AddRow(std::move(cells));
   }
-  const std::size_t all = 2 * kShownArithmetics.size() * AllMethods().size();
+  const std::size_t all = 2 * kArithmetics.size() * AllMethods().size();
   return table.Done() + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
 }
 

@@ -58,7 +58,8 @@ int MinimizeAsScene(const MinimizeVerb& o, const ProblemFile& file, const Policy
     const ExactProblem problem = ExactOf(tried);
     const bool kept = AllEndIn(options.keep, problem, options.policies, o.limits);
     return kept && (!options.signature ||
-                    Signature(problem, RunExact(problem, {policy, {}, o.limits})) == *options.signature);
+                    Signature(problem, RunExact(problem, {.policy = policy, .limits = o.limits})) ==
+                        *options.signature);
   };
   if (!keep(candidate)) {
     throw InputError(o.file, "--keep", std::string(Name(options.keep)),
@@ -88,7 +89,7 @@ void RequireForSpace(const MinimizeVerb& o, const Policy& policy) {
 }
 
 // How it loops, as `replay` says it.
-std::string EndOfMinimized(const ExactProblem& problem, const PublishedOptions& published) {
+std::string EndOfMinimized(const ExactProblem& problem, const Request& published) {
   const std::string under = fmt::format("under {}, ", PolicyName(published.policy));
   if (problem.dimension == 3) return under + Describe(RunIntervalsInSpace(problem, published));
   return under + Describe(RunExact(problem, published).verdict);
@@ -97,7 +98,7 @@ std::string EndOfMinimized(const ExactProblem& problem, const PublishedOptions& 
 int RunMinimize(const MinimizeVerb& o) {
   ProblemFile file = ReadProblem(o.file);
   const Policy policy = ParsePolicy(o.policy);
-  const PublishedOptions published{policy, {}, o.limits};
+  const Request published{.policy = policy, .limits = o.limits};
   const bool in_space = file.problem.dimension == 3;
   if (in_space) RequireForSpace(o, policy);
   const ExactRun run = in_space ? ExactRun() : RunExact(file.problem, published);

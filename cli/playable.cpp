@@ -25,7 +25,7 @@ std::optional<Playable> PlayFinding(const ProblemFile& file, const std::string& 
   std::string command = "stiction replay " + ShellWord(path.empty() ? "problem.json" : path);
   if (policy != Wanted().policy) command += " --policy " + ShellWord(policy);
   try {
-    const SolveRequest request = PathRequestOf(wanted, file.problem, file.name);
+    const Request request = PathRequestOf(wanted, file.problem, file.name);
     const Solution solution = SolveAsked(file.problem, request, file.name);
     return PlayableOf(wanted, file, nullptr, solution, OverIntervals(file.problem, request, solution.outcome()),
                       file.name, command + " --html OUT");

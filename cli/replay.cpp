@@ -60,7 +60,7 @@ std::string WholeEnd(const Answer<Scalar>& answer, const Solution& solution) {
   std::string text;
   if (solution.suspected)
     text = fmt::format("{}\nrun again{}: ", EndText(*solution.suspected, false),
-                       proved ? ", exactly" : " in long double, with finer tolerances");
+                       proved ? ", exactly" : " over quad, with finer tolerances");
   text += EndText(answer, proved) + "\n";
   if (!proved && answer.outcome == Outcome::kCycle) text += fmt::format("({})\n", kNoProof);
   return answer.word.empty() ? text : text + fmt::format("cells {}\n", answer.word);
@@ -100,8 +100,8 @@ std::string CommandOf(const ReplayOptions& o) {
   add("policy", o.policy, usual.policy);
   add("method", o.method, usual.method);
   add("arithmetic", o.arithmetic, usual.arithmetic);
-  add("sides", o.options.sides, usual.options.sides);
-  Limits limits = o.options.limits, usual_limits;
+  add("sides", o.request.sides, usual.request.sides);
+  Limits limits = o.request.limits, usual_limits;
   ForEachField(limits, [&](const NumberRow& row, std::int64_t value) {
     ForEachField(usual_limits, [&](const NumberRow& other, std::int64_t as_usual) {
       if (std::string_view(row.name) == other.name) add(std::string(row.name), value, as_usual);
@@ -149,9 +149,9 @@ void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const 
 
 int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   const ProblemFile& file = replay.file;
-  const SolveRequest request = PathRequestOf(o, file.problem, o.file);
+  const Request request = PathRequestOf(o, file.problem, o.file);
   const Solution solution = SolveAsked(file.problem, request, o.file);
-  const std::string expected = o.method == "baraff" ? Expected(file, request.options.policy) : "";
+  const std::string expected = o.method == "baraff" ? Expected(file, request.policy) : "";
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(file.problem, request, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
@@ -294,7 +294,7 @@ const ListedVerb kReplayVerb("One problem", 20, [](CommandLine& program) {
   verb.Option("-m,--method", o.method, "what to follow").Choices(PathMethodChoices());
   verb.Option("-a,--arithmetic", o.arithmetic, "exact where it is built, otherwise double, by default")
       .OneOf({kPathArithmetics.begin(), kPathArithmetics.end()});
-  verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
+  verb.Option("--sides", o.request.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
   verb.Flag("--step", o.step, "the problem; directions, forces and sets at every step; what the words mean");
   verb.Flag("--fractions", o.fractions,
@@ -315,7 +315,7 @@ const ListedVerb kReplayVerb("One problem", 20, [](CommandLine& program) {
       policies: {*: end}, arithmetic: arithmetic, counts: counters,
       unexpected: [text]  // policies that end otherwise than the file expects, or, without, unsolved
     })");
-  AddLimits(verb, o.options.limits);
+  AddLimits(verb, o.request.limits);
 });
 
 }  // namespace stiction

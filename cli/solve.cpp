@@ -190,9 +190,9 @@ using Answered = std::pair<Json, int>;  // what was asked of one file, and the e
 
 // A stays as it is.
 Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem, const std::atomic<bool>& stopped) {
-  SolveOptions options = o.options;
-  options.limits.stop = &stopped;
-  const Solution solution{SolveSparse(problem, options, o.method)};
+  Request request = o.request;
+  request.limits.stop = &stopped;
+  const Solution solution{SolveSparse(problem, request, o.method)};
   Json result = SolutionToJson(solution, problem.dimension);
   if (o.method == kAutomatic)
     result["why"] = problem.factors
@@ -219,15 +219,14 @@ Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
   const auto read = ReadFor(o);
   if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large, stopped);
   const auto& file = std::get<ProblemFile>(read);
-  SolveRequest request = RequestOf(o, file.problem, o.file);
+  Request request = RequestOf(o, file.problem, o.file);
   // `auto` takes those of a scene for nothing that it would not do without.
   const auto factors = o.method == kNewtonBodies ? FactorsBehind(file) : file.factors;
-  request.factors = factors ? &*factors : nullptr;
-  request.options.limits.stop = &stopped;
-  const Solution solution = SolveAsked(file.problem, request, o.file);
+  request.limits.stop = &stopped;
+  const Solution solution = SolveAsked(file.problem, request, o.file, factors ? &*factors : nullptr);
   Json result = SolutionToJson(solution, file.problem.dimension);
   if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
-  if (o.method == "baraff") result["policy"] = PolicyName(request.options.policy);
+  if (o.method == "baraff") result["policy"] = PolicyName(request.policy);
   result["assumptions"] = FailedAssumptions(file);
   if (!o.json) PrintForPeople(o, file.problem, solution, result);
   return {result, ExitOf(solution.outcome())};
@@ -322,9 +321,9 @@ const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
       .Choices({{"baraff", "the paper's conditions (21), (22), which leave the direction of slip free; exact"},
                 {"coulomb",
                  "friction opposite to the acceleration; exact arithmetic gives a proved bound on the angle"}});
-  verb.Option("--sides", o.options.sides, "sides of the friction polygons in space, a multiple of 4")
+  verb.Option("--sides", o.request.sides, "sides of the friction polygons in space, a multiple of 4")
       .Check(CheckSides);
-  verb.Option("--residual", o.options.residual,
+  verb.Option("--residual", o.request.residual,
               "by how much b and mu may differ where inexact forces are called solved")
       .Range(0, 1)
       .Details(
@@ -337,8 +336,8 @@ const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
             "long fractions in full, which are rounded otherwise, in text for people");
   verb.Prints(o.json, "forces of one problem, or why there are none; of many files a row for each",
               "answer | [{file: text, answer: answer} | {file: text, error: text}]");
-  AddLimits(verb, o.options.limits);
-  AddTolerances(verb, o.options.tolerances);
+  AddLimits(verb, o.request.limits);
+  AddTolerances(verb, o.request.tolerances);
 });
 
 }  // namespace stiction

@@ -20,8 +20,7 @@ bool Holds(const Rational& exact, Scalar x) {
   return is_normal || Rational(static_cast<double>(x)) == exact;
 }
 
-// `path`(): where the number stands. What underflows as a double is normal as a long double, without its
-// digits.
+// `path`(): where the number stands.
 template <class Scalar, class Path>
 Scalar Round(const Rational& exact, const Path& path) {
   const double nearest = ToDouble(exact);
@@ -64,6 +63,5 @@ ContactProblem<Scalar> Rounded(const ExactProblem& problem) {
 
 template ContactProblem<float> Rounded(const ExactProblem&);
 template ContactProblem<double> Rounded(const ExactProblem&);
-template ContactProblem<long double> Rounded(const ExactProblem&);
 
 }  // namespace stiction

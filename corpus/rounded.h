@@ -55,9 +55,8 @@ ContactProblem<Scalar> Rounded(const ExactProblem& problem);
 
 extern template ContactProblem<float> Rounded(const ExactProblem&);
 extern template ContactProblem<double> Rounded(const ExactProblem&);
-extern template ContactProblem<long double> Rounded(const ExactProblem&);
 
-// The rational problem that a rounded one is. Doubles and narrower; a long double must hold a double.
+// The rational problem that a rounded one is. Doubles and narrower.
 template <class Scalar>
 ExactProblem Unrounded(const ContactProblem<Scalar>& problem) {
   return Converted<Rational>(problem, [](Scalar x) { return Rational(static_cast<double>(x)); });

@@ -74,25 +74,25 @@ class Columns {
   void Add(py::ssize_t first, const std::vector<Solution>& solutions, double seconds) {
     const std::lock_guard lock(mutex_);
     seconds_ += seconds;
-    std::vector<Column*> columns;  // of the counters of the answer before, most often of the next one too
     for (std::size_t k = 0; k < solutions.size(); ++k) {
-      const auto& counters =
-          std::visit([](const auto& answer) -> const std::vector<Counter>& { return answer.counters; },
-                     solutions[k].answer);
-      columns.resize(counters.size());
-      for (std::size_t j = 0; j < counters.size(); ++j) {
-        if (columns[j] == nullptr || columns[j]->first != counters[j].name)
-          columns[j] = ColumnOf(counters[j].name);
-        columns[j]->second[first + static_cast<py::ssize_t>(k)] = counters[j].value;
-      }
+      const Counters& counters = std::visit(
+          [](const auto& answer) -> const Counters& { return answer.counters; }, solutions[k].answer);
+      counters.ForEach([&](Counter c, std::int64_t value) {
+        std::vector<std::int64_t>& column = counters_[static_cast<std::size_t>(c)];
+        column.resize(static_cast<std::size_t>(outcomes_.size()));
+        column[static_cast<std::size_t>(first) + k] = value;
+      });
     }
   }
 
   py::dict Taken() const {
     py::dict counters, columns;
-    for (const auto& [name, column] : counters_)
-      counters[py::str(std::string(name))] =
+    for (std::size_t c = 0; c < counters_.size(); ++c) {
+      const auto& column = counters_[c];
+      if (column.empty()) continue;
+      counters[py::str(std::string(Name(static_cast<Counter>(c))))] =
           py::array_t<std::int64_t>(static_cast<py::ssize_t>(column.size()), column.data());
+    }
     std::vector<std::string> names;
     for (int k = 0; k <= kOutcomeCount; ++k) names.emplace_back(Name(static_cast<Outcome>(k)));
     columns["outcomes"] = names;
@@ -107,11 +107,6 @@ class Columns {
   }
 
  private:
-  using Column = std::pair<const std::string_view, std::vector<std::int64_t>>;
-
-  Column* ColumnOf(std::string_view name) {
-    return &*counters_.try_emplace(name, static_cast<std::size_t>(outcomes_.size())).first;
-  }
   static double Nearest(double x) { return x; }
   static double Nearest(const Rational& x) { return ToDouble(x); }
   void Copy(const auto& vector, double* to) const {
@@ -125,13 +120,13 @@ class Columns {
   py::array_t<std::int64_t> starts_, periods_;
   std::mutex mutex_;
   double seconds_ = 0;
-  std::map<std::string_view, std::vector<std::int64_t>> counters_;
+  std::array<std::vector<std::int64_t>, kCounterCount> counters_;  // by Count
 };
 
 // Units of neighbouring problems, which threads take one after another.
 class Many {
  public:
-  Many(const Arrays& arrays, py::ssize_t count, const ContactProblem<double>& like, const SolveRequest& request,
+  Many(const Arrays& arrays, py::ssize_t count, const ContactProblem<double>& like, const Request& request,
        int threads, Columns& columns)
       : arrays_(arrays),
         count_(count),
@@ -154,7 +149,7 @@ class Many {
     const py::ssize_t size = std::clamp<py::ssize_t>(count_ / (8 * threads_), 1, 64);
     std::vector<ContactProblem<double>> problems(static_cast<std::size_t>(size), like_);
     std::vector<ExactProblem> exact;
-    while (!request_.options.limits.Stopped()) {
+    while (!request_.limits.Stopped()) {
       const py::ssize_t first = next_.fetch_add(size), count = std::min(count_ - first, size);
       if (count <= 0 || first > refused_at_) return;
       for (py::ssize_t k = 0; k < count; ++k) Read(arrays_, first + k, problems[static_cast<std::size_t>(k)]);
@@ -164,7 +159,8 @@ class Many {
       }
       exact.clear();
       for (py::ssize_t k = 0; k < count; ++k) exact.push_back(Unrounded(problems[static_cast<std::size_t>(k)]));
-      SolveUnit(first, count, exact, &SolveIn);
+      SolveUnit(first, count, exact,
+                [](const ExactProblem& problem, const Request& request) { return SolveIn(problem, request); });
     }
   }
 
@@ -195,7 +191,7 @@ class Many {
   const Arrays& arrays_;
   const py::ssize_t count_;
   const ContactProblem<double>& like_;
-  const SolveRequest& request_;
+  const Request& request_;
   const int threads_;
   Columns& columns_;
   std::atomic<py::ssize_t> next_ = 0;
@@ -207,13 +203,13 @@ class Many {
 }  // namespace
 
 py::dict SolveMany(const ExactProblem& like, const Doubles& A, const Doubles& b, const Doubles& mu,
-                   SolveRequest request, int threads) {
+                   Request request, int threads) {
   const Arrays arrays{A.unchecked<3>(), b.unchecked<2>(), mu.unchecked<2>()};
   const auto rounded =
       Converted<double>(like, [](const Rational& x) { return ToDouble(x); });  // mu, A, b: read
   Columns columns(A.shape(0), like.rows());
   Interruptible(0, [&](const std::atomic<bool>* stop) {
-    request.options.limits.stop = stop;
+    request.limits.stop = stop;
     Many(arrays, A.shape(0), rounded, request, threads, columns).Run();
     return true;
   });

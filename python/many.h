@@ -17,7 +17,7 @@ namespace stiction {
 // refused.
 pybind11::dict SolveMany(const ExactProblem& like, const pybind11::array_t<double, 0>& A,
                          const pybind11::array_t<double, 0>& b, const pybind11::array_t<double, 0>& mu,
-                         SolveRequest request, int threads);
+                         Request request, int threads);
 
 }  // namespace stiction
 

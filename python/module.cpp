@@ -285,24 +285,24 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
   RequireBetween("residual", residual, 0, 1);
   RequireBetween("seconds", seconds, 0, 1e9);
-  wanted.options.residual = residual;
-  wanted.options.sides = sides;
-  SetNumbers(wanted.options.limits, numbers);
-  SetNumbers(wanted.options.tolerances, numbers);
+  wanted.request.residual = residual;
+  wanted.request.sides = sides;
+  SetNumbers(wanted.request.limits, numbers);
+  SetNumbers(wanted.request.tolerances, numbers);
   if (problem.sparse() != nullptr && AsksForDense(wanted, *problem.sparse()).empty()) {
     const SparseProblem& sparse = *problem.sparse();
     return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
-      wanted.options.limits.stop = stop;
-      return SolutionToJson({SolveSparse(sparse, wanted.options, wanted.method)}, sparse.dimension);
+      wanted.request.limits.stop = stop;
+      return SolutionToJson({SolveSparse(sparse, wanted.request, wanted.method)}, sparse.dimension);
     }));
   }
   const ProblemFile& file = problem.file();
-  SolveRequest request = RequestOf(wanted, file.problem, kSource);
+  Request request = RequestOf(wanted, file.problem, kSource);
   const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
-  request.factors = factors ? &*factors : nullptr;
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
-    request.options.limits.stop = stop;
-    return SolutionToJson(SolveAsked(file.problem, request, kSource), file.problem.dimension);
+    request.limits.stop = stop;
+    return SolutionToJson(SolveAsked(file.problem, request, kSource, factors ? &*factors : nullptr),
+                          file.problem.dimension);
   }));
 }
 
@@ -317,25 +317,25 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
                         const std::string& arithmetic, const std::string& policy, const std::string& law,
                         int sides, const Numbers& numbers) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
-  wanted.options.sides = sides;
-  SetNumbers(wanted.options.limits, numbers);
+  wanted.request.sides = sides;
+  SetNumbers(wanted.request.limits, numbers);
   for (PythonProblem* problem : problems) problem->file();
   const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
     Ends all;
     for (PythonProblem* problem : problems) {
       if (*stop) break;
-      SolveRequest request = RequestOf(wanted, problem->problem(), kSource);
-      request.options.limits.stop = stop;
+      Request request = RequestOf(wanted, problem->problem(), kSource);
+      request.limits.stop = stop;
       const Stopwatch watch;
       const Solution solution = SolveAsked(problem->problem(), request, kSource);
       all.seconds.push_back(watch.Seconds());
       all.outcomes.emplace_back(Name(solution.outcome()));
-      for (const Counter& counter :
-           std::visit([](const auto& answer) { return answer.counters; }, solution.answer)) {
-        auto& column = all.counters[std::string(counter.name)];
+      const Counters counters = std::visit([](const auto& answer) { return answer.counters; }, solution.answer);
+      counters.ForEach([&](Counter c, std::int64_t value) {
+        auto& column = all.counters[std::string(Name(c))];
         column.resize(problems.size());
-        column[all.outcomes.size() - 1] = counter.value;
-      }
+        column[all.outcomes.size() - 1] = value;
+      });
     }
     return all;
   });
@@ -365,19 +365,19 @@ std::vector<PythonProblem> DrawProblems(const std::string& campaign_text, std::i
 Wanted WantedPath(const std::string& policy, const std::string& method, const std::string& arithmetic,
                   int sides, const Numbers& numbers) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .dashes = ""};
-  wanted.options.sides = sides;
-  SetNumbers(wanted.options.limits, numbers);
+  wanted.request.sides = sides;
+  SetNumbers(wanted.request.limits, numbers);
   return wanted;
 }
 
 py::object ReplayProblem(PythonProblem& problem, const std::string& policy, const std::string& method,
                          const std::string& arithmetic, int sides, const Numbers& numbers) {
   const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
-  SolveRequest request = PathRequestOf(wanted, problem.problem(), kSource);
+  Request request = PathRequestOf(wanted, problem.problem(), kSource);
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
-    request.options.limits.stop = stop;
+    request.limits.stop = stop;
     const Solution solution = SolveAsked(problem.problem(), request, kSource);
-    Json json = ReplayToJson({method, policy, wanted.options.limits}, problem.file(), solution,
+    Json json = ReplayToJson({method, policy, wanted.request.limits}, problem.file(), solution,
                              Narrate(method, problem.file(), solution, {.vectors = true}), true);
     const auto proved = OverIntervals(problem.problem(), request, solution.outcome());
     if (proved) json["over_intervals"] = EndToJson(*proved);
@@ -391,9 +391,9 @@ std::string PageOfReplay(PythonProblem& problem, const std::string& policy, cons
                          const std::string& command) {
   const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
   const ProblemFile& file = problem.file();
-  SolveRequest request = PathRequestOf(wanted, file.problem, kSource);
+  Request request = PathRequestOf(wanted, file.problem, kSource);
   return Interruptible(0, [&](const std::atomic<bool>* stop) {
-    request.options.limits.stop = stop;
+    request.limits.stop = stop;
     const Solution solution = SolveAsked(file.problem, request, kSource);
     const auto proved = OverIntervals(file.problem, request, solution.outcome());
     const Json data = PageOfRun(wanted, file, kSource, PictureBeside(file, kSource), solution, proved);
@@ -408,9 +408,9 @@ py::dict SolveManyAsked(PythonProblem& like, const Doubles& A, const Doubles& b,
                         const std::string& law, int sides, const Numbers& numbers, bool followed, int threads) {
   Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
   wanted.law = law;
-  SolveRequest request =
+  Request request =
       followed ? PathRequestOf(wanted, like.problem(), kSource) : RequestOf(wanted, like.problem(), kSource);
-  request.trace = KeepTrace::kNo;
+  request.trace = false;
   return SolveMany(like.problem(), A, b, mu, request, threads);
 }
 
@@ -435,7 +435,7 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
   Wanted wanted = WantedPath("paper", "baraff", arithmetic, sides, numbers);
   problem.file();
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
-    wanted.options.limits.stop = stop;
+    wanted.request.limits.stop = stop;
     return Json(OutcomesOf(wanted, problem.problem(), kSource));
   }));
 }

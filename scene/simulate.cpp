@@ -58,7 +58,7 @@ SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, st
                         const Eigen::VectorXd& start) {
   if (model.islands[island].rows < FactorRows(level, Kind::kDimension)) {
     SceneAnswer answer = solver.Solve(model.Problem(island));
-    if (answer.Solved() && ValueOf(answer.counters, "loose") == 0) return answer;
+    if (answer.Solved() && answer.counters[Counter::kLoose] == 0) return answer;
     SceneAnswer other = solver.Solve(model.InFactors(island));
     return other.Solved() ? other : answer;
   }
@@ -76,10 +76,7 @@ SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, st
 template <class Kind>
 SimulationIn<Kind>::SimulationIn(SceneType scene, const SimulationOptions& options,
                                  std::function<void(const FrameProblem&)> observe)
-    : scene_(std::move(scene)),
-      options_(options),
-      observe_(std::move(observe)),
-      solvers_([options] { return SceneSolver(options.solver); }) {
+    : scene_(std::move(scene)), options_(options), observe_(std::move(observe)), solvers_() {
   const double gravity = scene_.gravity.norm();
   size_ = SizeOf(scene_);
   scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : kSlow * size_;
@@ -225,10 +222,10 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   }
   failed_ = count;
   for (std::size_t i = count; i-- > 0;) {
-    statistics_.fallbacks += ValueOf(answers[i].counters, "fallbacks");
-    statistics_.loose += ValueOf(answers[i].counters, "loose");
-    statistics_.sparse += ValueOf(answers[i].counters, "sparse");
-    statistics_.warm += ValueOf(answers[i].counters, "warm");
+    statistics_.fallbacks += answers[i].counters[Counter::kFallbacks];
+    statistics_.loose += answers[i].counters[Counter::kLoose];
+    statistics_.sparse += answers[i].counters[Counter::kSparse];
+    statistics_.warm += answers[i].counters[Counter::kWarm];
     if (!answers[i].Solved()) failed_ = i;
     f[i] = std::move(answers[i].f);
   }

@@ -42,7 +42,7 @@
 // SceneSolver from f = 0 (`warm`: false: in every step, and the answer depends on the state alone). f = 0 is
 // taken where it is a solution. Nothing else is promised.
 //
-// Errors. A frame whose problem is not solved to FastOptions::residual (in space: kLooseResidual; with joints
+// Errors. A frame whose problem is not solved to Request::residual (in space: kLooseResidual; with joints
 // or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
 // miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
 // the step, one of positions where there are joints, one of impulses in a collision. For an island of 100 rows
@@ -79,7 +79,6 @@ struct SimulationOptions {
   bool minimal = true;
   bool warm = true;   // whether a step's forces start from those of the step before
   int halvings = 10;  // of a step, one within the other; 0: none
-  SceneSolverOptions solver;
 };
 
 // Counters since the start.

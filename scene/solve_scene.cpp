@@ -92,11 +92,7 @@ const SceneSolver::Turn SceneSolver::kTurns[] = {
     {2, false, &SceneSolver::Proximal},
 };
 
-SceneSolver::SceneSolver(const SceneSolverOptions& options)
-    : fast_(options.fast),
-      proximal_({.residual = options.fast.residual, .aim = kProximalAim}),
-      coulomb_(options.coulomb),
-      bodies_({.residual = options.fast.residual}) {}
+SceneSolver::SceneSolver() : proximal_({}, kProximalAim), coulomb_({.residual = kCoulombResidual}) {}
 
 SceneAnswer SceneSolver::Solve(const Dense& problem) {
   const RowScale scale = FindScale(problem);
@@ -107,13 +103,13 @@ SceneAnswer SceneSolver::Solve(const Dense& problem) {
 
 SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
   SceneAnswer answer;
-  fast_.options().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
+  fast_.request().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
   if (!Reduction<double>::Concerns(problem)) {
     const auto of = [&](const Dense::Vector& f) { return ErrorOf(problem, f); };
     if (TryInTurn(problem, answer, of)) answer.outcome = Outcome::kSolved;
     return answer;
   }
-  const Reduction<double> reduction(problem, ForReduction(fast_.options().tolerances, problem.dimension));
+  const Reduction<double> reduction(problem, ForReduction(fast_.request().tolerances, problem.dimension));
   if (reduction.end() != ReductionEnd::kReduced) return answer;
   answer.f.resize(0);
   // What remains may be held to the rounding of what was taken out; the whole is not.
@@ -125,7 +121,7 @@ SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
   const double error = ErrorOf(problem, answer.f, kNoiseOfRepeated);
   if (!(error <= kLooseWholeResidual)) return answer;
   answer.outcome = Outcome::kSolved;
-  if (ValueOf(answer.counters, "loose") == 0 && error > kWholeResidual) Add(answer.counters, "loose");
+  if (answer.counters[Counter::kLoose] == 0 && error > kWholeResidual) ++answer.counters[Counter::kLoose];
   return answer;
 }
 
@@ -135,8 +131,8 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
     answer.f.setZero(problem.rows());
     answer.outcome = Outcome::kSolved;
   } else {
-    bodies_.options().noise = NoiseOf(problem);
-    bodies_.options().failures = start != nullptr ? problem.rows() / kRowsPerFailure : kFailures;
+    bodies_.request().noise = NoiseOf(problem);
+    bodies_.failures = start != nullptr ? problem.rows() / kRowsPerFailure : kFailures;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
     if (!answer.Solved() && start == nullptr && problem.dimension == 2 && problem.rows() >= kLargeRows) {
@@ -145,8 +141,8 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
     }
   }
   if (!answer.Solved()) return answer;
-  Add(answer.counters, "sparse");
-  Add(answer.counters, "warm", start != nullptr);
+  ++answer.counters[Counter::kSparse];
+  answer.counters[Counter::kWarm] += start != nullptr;
   return answer;
 }
 
@@ -175,14 +171,14 @@ bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error err
   }
   if (best.size() == 0) return false;
   answer.f = best;
-  Add(answer.counters, "loose");
+  ++answer.counters[Counter::kLoose];
   return true;
 }
 
 // ---- Methods ---------------------------------------------------------------------------------
 
 bool SceneSolver::GuessCells(const Dense& problem, const std::vector<Cell>& guess) {
-  fast_.options().drives = false;
+  fast_.drives = false;
   return fast_.Run(problem, guess).outcome == Outcome::kSolved;
 }
 
@@ -210,7 +206,7 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
     const Dense::Vector a = problem.A * f + problem.b;
     residual = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest();
   }
-  return residual <= fast_.options().residual;
+  return residual <= ResidualOf<double>(fast_.request());
 }
 
 bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
@@ -220,21 +216,21 @@ bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
 bool SceneSolver::RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer) {
   const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
   answer.f = proximal_.f();
-  Add(answer.counters, "sparse", solved);
+  answer.counters[Counter::kSparse] += solved;
   return solved;
 }
 
 bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
-  fast_.options().drives = true;
-  const FastVerdict verdict = fast_.Run(problem);
-  Add(answer.counters, "fallbacks", verdict.statistics.fallbacks);
+  fast_.drives = true;
+  const RunEnd<> verdict = fast_.Run(problem);
+  answer.counters[Counter::kFallbacks] += verdict.statistics[Counter::kFallbacks];
   answer.f = fast_.f();
   return verdict.outcome == Outcome::kSolved;
 }
 
 bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
-  const CoulombVerdict verdict = coulomb_.Run(problem);
-  Add(answer.counters, "fallbacks", verdict.statistics.polygons > 0);
+  const RunEnd<> verdict = coulomb_.Run(problem);
+  answer.counters[Counter::kFallbacks] += verdict.statistics[Counter::kPolygons] > 0;
   answer.f = coulomb_.f();
   return verdict.outcome == Outcome::kSolved;
 }

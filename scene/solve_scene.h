@@ -49,16 +49,7 @@ inline constexpr double kLooseResidual = 1e-5;
 
 inline constexpr double kProximalAim = 1e-13;  // a residual beyond which proximal points gain nothing
 
-inline CoulombOptions WithResidual(double residual) {
-  CoulombOptions options;
-  options.residual = residual;
-  return options;
-}
-
-struct SceneSolverOptions {
-  FastOptions fast;                             // in the plane, and without friction
-  CoulombOptions coulomb = WithResidual(1e-7);  // in space
-};
+inline constexpr double kCoulombResidual = 1e-7;  // of problems in space
 
 // solved or undecided; f is of no meaning if not solved. Counters: fallbacks, runs of complete driving; loose,
 // solved to kLooseResidual only; sparse, solved in the space of bodies; warm, from given forces.
@@ -67,7 +58,7 @@ using SceneAnswer = Answer<double>;
 // Reusable. Memory is kept between runs; answers do not depend on earlier ones.
 class SceneSolver {
  public:
-  explicit SceneSolver(const SceneSolverOptions& options = {});
+  SceneSolver();
 
   // Of contacts of any kinds.
   SceneAnswer Solve(const ContactProblem<double>& problem);

@@ -29,11 +29,9 @@ template <>
 std::span<const Method<double>> Methods<double>() {
   return FloatingMethods<double>();
 }
-template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
-                              Trace<double>*);
+template Answer<double> Solve(const ContactProblem<double>&, const Request&);
 template const Method<double>* FindMethod(std::string_view);
 template void JudgeAnswer(const ContactProblem<double>&, double, Answer<double>&);
-template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
-                                Trace<double>*);
+template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const Request&);
 
 }  // namespace stiction

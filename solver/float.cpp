@@ -26,8 +26,7 @@ template <>
 std::span<const Method<float>> Methods<float>() {
   return FloatingMethods<float>();
 }
-template Answer<float> Solve(const ContactProblem<float>&, std::string_view, const SolveOptions&,
-                             Trace<float>*);
+template Answer<float> Solve(const ContactProblem<float>&, const Request&);
 template const Method<float>* FindMethod(std::string_view);
 template void JudgeAnswer(const ContactProblem<float>&, double, Answer<float>&);
 

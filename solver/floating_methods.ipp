@@ -6,7 +6,6 @@
 
 #include <array>
 
-#include "solver/numeric/admm.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
 #include "solver/numeric/proximal.h"
@@ -17,29 +16,28 @@ namespace stiction {
 
 // What a method aims at, so that the gate, which adds what rounding may hide, lets it pass.
 template <class Scalar>
-double AimOf(const SolveOptions& options) {
-  return (options.residual > 0 ? options.residual : kSolvedResidual<Scalar>) / 2;
+Request Aiming(Request request) {
+  request.residual = ResidualOf<Scalar>(request) / 2;
+  return request;
 }
 
 // ---- Runs over floating-point scalars alone ------------------------------------------------------
 
 template <class Scalar>
-Answer<Scalar> RunBaraffInSpace(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                                Trace<Scalar>* trace) {
-  PublishedInSpace<Scalar> algorithm({options.policy, options.tolerances, options.limits});
-  const PublishedSpaceVerdict verdict = algorithm.Run(problem, trace == nullptr ? nullptr : &trace->pivots);
-  auto answer = AnswerOf<Scalar>(verdict);
+Answer<Scalar> RunBaraffInSpace(const ContactProblem<Scalar>& problem, const Request& request) {
+  PublishedInSpace<Scalar> algorithm(request);
+  SpaceTrace<Scalar> trace;
+  auto answer = AnswerOf<Scalar>(algorithm.Run(problem, request.trace ? &trace : nullptr));
+  answer.counters = algorithm.counters();
   answer.f = algorithm.f();
-  if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+  if (answer.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+  answer.pivots = std::move(trace);
   return answer;
 }
 
 template <class Scalar>
-Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
-  ProximalOptions proximal;
-  proximal.residual = proximal.aim = AimOf<Scalar>(options);
-  proximal.limits = options.limits;
-  ProximalNewton<Scalar> solver(proximal);
+Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const Request& request) {
+  ProximalNewton<Scalar> solver(Aiming<Scalar>(request));
   SparseContactProblem<Scalar> sparse{problem.dimension, problem.contacts, problem.A.sparseView(), problem.b};
   auto answer = AnswerOf<Scalar>(solver.Run(sparse));
   answer.f = solver.f();
@@ -48,40 +46,24 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const SolveOpt
 
 // Where masses or jams are beyond what pivots of this scalar tell apart, proximal points may still be found.
 template <class Scalar>
-Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                       Trace<Scalar>* trace) {
-  FastSolver<Scalar> solver({options.tolerances, options.limits, AimOf<Scalar>(options)});
+Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const Request& request) {
+  FastSolver<Scalar> solver(Aiming<Scalar>(request));
   auto answer = AnswerOf<Scalar>(solver.Run(problem));
   answer.f = solver.f();
   if (answer.Solved()) {
     answer.word = solver.Word();
     return answer;
   }
-  if (options.limits.Stopped()) return answer;
-  Answer<Scalar> other = RunProximal(problem, options, trace);
+  if (request.limits.Stopped()) return answer;
+  Answer<Scalar> other = RunProximal(problem, request);
   if (!other.Solved()) return answer;
-  other.counters.insert(other.counters.begin(), answer.counters.begin(), answer.counters.end());
+  other.counters += answer.counters;
   return other;
 }
 
-template <class Scalar>
-Answer<Scalar> RunAdmm(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
-  Admm<Scalar> solver({.limits = options.limits, .residual = AimOf<Scalar>(options)});
-  auto answer = AnswerOf<Scalar>(solver.Run(problem));
-  answer.law = FrictionLaw::kCoulomb;
-  answer.f = solver.f();
-  return answer;
-}
-
 template <class Scalar, CoulombStart kStart>
-Answer<Scalar> RunCoulomb(const ContactProblem<Scalar>& problem, const SolveOptions& options, Trace<Scalar>*) {
-  CoulombOptions coulomb;
-  coulomb.tolerances = options.tolerances;
-  coulomb.limits = options.limits;
-  coulomb.sides = options.sides;
-  coulomb.start = kStart;
-  coulomb.residual = AimOf<Scalar>(options);
-  CoulombSolver<Scalar> solver(coulomb);
+Answer<Scalar> RunCoulomb(const ContactProblem<Scalar>& problem, const Request& request) {
+  CoulombSolver<Scalar> solver(Aiming<Scalar>(request), kStart);
   auto answer = AnswerOf<Scalar>(solver.Run(problem));
   answer.law = FrictionLaw::kCoulomb;
   answer.f = solver.f();
@@ -90,24 +72,23 @@ Answer<Scalar> RunCoulomb(const ContactProblem<Scalar>& problem, const SolveOpti
 
 // The solution on polygons is where sweeps and Newton's method begin.
 template <class Scalar>
-Answer<Scalar> RunLemkeInSpace(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                               Trace<Scalar>* trace) {
-  LemkeAlgorithm<Scalar> lemke(LemkeOptionsOf<Scalar>(options));
+Answer<Scalar> RunLemkeInSpace(const ContactProblem<Scalar>& problem, const Request& request) {
+  LemkeAlgorithm<Scalar> lemke(request, kUsualCover<Scalar>);
   const std::vector<FrictionPolygon<Scalar>> polygons(problem.contacts.size(),
-                                                      FrictionPolygon<Scalar>(options.sides));
-  const Verdict verdict = lemke.Run(problem, polygons, trace);
-  if (verdict.outcome != Outcome::kSolved) {
-    auto answer = AnswerOf<Scalar>(verdict);
-    if (verdict.outcome == Outcome::kRay) answer.ray = lemke.ray();
-    return answer;
+                                                      FrictionPolygon<Scalar>(request.sides));
+  Trace<Scalar> trace;
+  auto pivoted = AnswerOf<Scalar>(lemke.Run(problem, polygons, Kept(request, trace)));
+  pivoted.pivots = std::move(trace.pivots);
+  if (!pivoted.Solved()) {
+    if (pivoted.outcome == Outcome::kRay) pivoted.ray = lemke.ray();
+    return pivoted;
   }
-  CoulombOptions coulomb;
-  coulomb.limits = options.limits;
-  coulomb.sides = 0;
-  coulomb.residual = AimOf<Scalar>(options);
-  CoulombSolver<Scalar> solver(coulomb);
+  Request from_point = Aiming<Scalar>(request);
+  from_point.sides = 0;
+  CoulombSolver<Scalar> solver(from_point);
   auto answer = AnswerOf<Scalar>(solver.Run(problem, &lemke.f()));
-  answer.counters.push_back({"pivots", verdict.statistics.pivots});
+  answer.counters += pivoted.counters;
+  answer.pivots = std::move(pivoted.pivots);
   answer.law = FrictionLaw::kCoulomb;
   answer.f = solver.f();
   return answer;
@@ -139,16 +120,6 @@ Method<Scalar> ProximalRow() {
 }
 
 template <class Scalar>
-Method<Scalar> AdmmRow() {
-  return {.name = "admm",
-          .title = "alternating directions of multipliers on the cone of friction, over-relaxed and balanced",
-          .source = "solver/numeric/admm.h",
-          .ends = "nothing; what is called solved has the residual that is asked for",
-          .plane = {&RunAdmm<Scalar>},
-          .space = {&RunAdmm<Scalar>}};
-}
-
-template <class Scalar>
 std::span<const Method<Scalar>> FloatingMethods() {
   static const std::array rows = {
       FastRow<Scalar>(),
@@ -156,7 +127,6 @@ std::span<const Method<Scalar>> FloatingMethods() {
       CompleteRow<Scalar>({&RunCoulomb<Scalar, CoulombStart::kComplete>, true}),
       LemkeRow<Scalar>({&RunLemkeInSpace<Scalar>}),
       BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}),
-      AdmmRow<Scalar>(),
   };
   return rows;
 }

@@ -36,20 +36,8 @@
 
 namespace stiction {
 
-struct SolveOptions {
-  Policy policy = {};          // of the published algorithm
-  Tolerances tolerances = {};  // of inexact arithmetics
-  Limits limits = {};
-  FrictionLaw law = FrictionLaw::kCoulomb;  // in space; of the method baraff it is kBaraff
-  int sides = 8;                            // of friction polygons in space, a multiple of 4
-  double residual = 0;                      // of an answer that is called solved; 0: that of the arithmetic
-  DependentRows* dependent = nullptr;  // over enclosures: rows that follow from others; null: none are known
-
-  bool operator==(const SolveOptions&) const = default;
-};
-
 template <class Scalar>
-using MethodRun = Answer<Scalar> (*)(const ContactProblem<Scalar>&, const SolveOptions&, Trace<Scalar>*);
+using MethodRun = Answer<Scalar> (*)(const ContactProblem<Scalar>&, const Request&);
 
 // How the steps of a run are told.
 enum class Path : std::uint8_t {
@@ -92,41 +80,33 @@ struct Method {
   bool IsFirst(int dimension, Eigen::Index rows) const { return rows >= In(dimension).first_from; }
 };
 
-// The methods over a scalar: here float, double, long double; exact ones in certify.
+// The methods over a scalar: here float and double; wider and exact ones in certify.
 template <class Scalar>
 std::span<const Method<Scalar>> Methods();
-
-inline constexpr std::string_view kAutomatic = "auto";
 
 // The row of that name; null if the table has none.
 template <class Scalar>
 const Method<Scalar>* FindMethod(std::string_view name);
 
-// Runs the method of that name, or kAutomatic. Shapes: all vectors rows x 1; f in N, a in m/s^2. Outcomes are
-// never exceptions; std::invalid_argument for a method that is not in the table or not built for the dimension.
-// With `trace`, a path method records its steps.
+// Runs the method that is asked for, or kAutomatic. Shapes: all vectors rows x 1; f in N, a in m/s^2. Outcomes
+// are never exceptions; std::invalid_argument for a method that is not in the table or not built for the
+// dimension.
 template <class Scalar>
-Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, std::string_view method = kAutomatic,
-                     const SolveOptions& options = {}, Trace<Scalar>* trace = nullptr);
+Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, const Request& request = {});
 
 // The same for one row.
 template <class Scalar>
 Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
-                       const SolveOptions& options, Trace<Scalar>* trace = nullptr);
+                       const Request& request);
 
 // The gate. Floating-point scalars. Sets answer.a and answer.errors; an answer that calls itself solved and
 // whose forces are not finite or do not meet the bound becomes undecided.
 template <class Scalar>
 void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Scalar>& answer);
 
-extern template Answer<float> Solve(const ContactProblem<float>&, std::string_view, const SolveOptions&,
-                                    Trace<float>*);
-extern template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
-                                     Trace<double>*);
-extern template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&,
-                                       const SolveOptions&, Trace<double>*);
-extern template Answer<long double> Solve(const ContactProblem<long double>&, std::string_view,
-                                          const SolveOptions&, Trace<long double>*);
+extern template Answer<float> Solve(const ContactProblem<float>&, const Request&);
+extern template Answer<double> Solve(const ContactProblem<double>&, const Request&);
+extern template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const Request&);
 
 }  // namespace stiction
 

@@ -39,32 +39,33 @@ Answer<Scalar> UnlessUnsure(Run run) {
   }
 }
 
+// The trace of a run is kept where it is asked for.
 template <class Scalar>
-Answer<Scalar> RunBaraff(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                         Trace<Scalar>* trace) {
-  PublishedAlgorithm<Scalar> algorithm({options.policy, options.tolerances, options.limits});
-  algorithm.KnowDependentRows(options.dependent);
-  auto answer = UnlessUnsure<Scalar>([&] { return AnswerOf<Scalar>(algorithm.Run(problem, trace)); });
+Trace<Scalar>* Kept(const Request& request, Trace<Scalar>& trace) {
+  return request.trace ? &trace : nullptr;
+}
+
+template <class Scalar>
+Answer<Scalar> RunBaraff(const ContactProblem<Scalar>& problem, const Request& request) {
+  PublishedAlgorithm<Scalar> algorithm(request);
+  algorithm.KnowDependentRows(request.dependent);
+  Trace<Scalar> trace;
+  auto answer =
+      UnlessUnsure<Scalar>([&] { return AnswerOf<Scalar>(algorithm.Run(problem, Kept(request, trace))); });
   answer.f = algorithm.state().f;
   if constexpr (kEncloses<Scalar>) answer.a = algorithm.state().a;
   if (answer.outcome == Outcome::kRay) answer.ray = algorithm.direction().df();
+  answer.pivots = std::move(trace.pivots);
   return answer;
 }
 
-inline CompleteOptions CompleteOptionsOf(const SolveOptions& options) {
-  CompleteOptions complete;
-  complete.tolerances = options.tolerances;
-  complete.limits = options.limits;
-  return complete;
-}
-
 template <class Scalar>
-Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                                  Trace<Scalar>* trace) {
-  CompleteDriving<Scalar> driving(CompleteOptionsOf(options));
-  driving.KnowDependentRows(options.dependent);
+Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const Request& request) {
+  CompleteDriving<Scalar> driving(request);
+  driving.KnowDependentRows(request.dependent);
+  Trace<Scalar> trace;
   auto answer = UnlessUnsure<Scalar>([&] {
-    auto end = AnswerOf<Scalar>(driving.Run(problem, trace));
+    auto end = AnswerOf<Scalar>(driving.Run(problem, Kept(request, trace)));
     end.word = driving.Word();
     return end;
   });
@@ -72,34 +73,27 @@ Answer<Scalar> RunCompleteDriving(const ContactProblem<Scalar>& problem, const S
   if constexpr (kEncloses<Scalar>) answer.a = driving.a();
   if (answer.outcome == Outcome::kRay) answer.ray = driving.ray();
   const bool unsure = answer.reason == kUnsureSign;  // within a step, which is not told
-  if (unsure && trace != nullptr && !trace->pivots.empty() && trace->pivots.back().limiting < 0)
-    trace->pivots.pop_back();
+  if (unsure && !trace.pivots.empty() && trace.pivots.back().limiting < 0) trace.pivots.pop_back();
+  answer.pivots = std::move(trace.pivots);
   return answer;
 }
 
 // Units of the problem at hand steady the ratio tests of rounded numbers; ones are the classical cover.
 template <class Scalar>
-LemkeOptions LemkeOptionsOf(const SolveOptions& options) {
-  LemkeOptions lemke;
-  lemke.cover = kIsExact<Scalar> ? Cover::kOnes : Cover::kUnits;
-  lemke.tolerances = options.tolerances;
-  lemke.limits = options.limits;
-  return lemke;
-}
+inline constexpr Cover kUsualCover = kIsExact<Scalar> ? Cover::kOnes : Cover::kUnits;
 
 template <class Scalar>
-Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                              Trace<Scalar>* trace) {
-  LemkeAlgorithm<Scalar> algorithm(LemkeOptionsOf<Scalar>(options));
+Answer<Scalar> RunLemkeMethod(const ContactProblem<Scalar>& problem, const Request& request) {
+  LemkeAlgorithm<Scalar> algorithm(request, kUsualCover<Scalar>);
   return UnlessUnsure<Scalar>([&] {
-    const Verdict verdict = algorithm.Run(problem, trace);
-    auto answer = AnswerOf<Scalar>(verdict);
-    answer.counters = {{"pivots", verdict.statistics.pivots}};
-    if (verdict.outcome == Outcome::kSolved || verdict.reason == kImprecise) {
+    Trace<Scalar> trace;
+    auto answer = AnswerOf<Scalar>(algorithm.Run(problem, Kept(request, trace)));
+    answer.pivots = std::move(trace.pivots);
+    if (answer.Solved() || answer.reason == kImprecise) {
       answer.f = algorithm.f();
       if constexpr (kEncloses<Scalar>) answer.a = algorithm.a();
     }
-    if (verdict.outcome == Outcome::kRay) answer.ray = algorithm.ray();
+    if (answer.outcome == Outcome::kRay) answer.ray = algorithm.ray();
     return answer;
   });
 }
@@ -155,13 +149,12 @@ int UnitOfStep(const Pivot<Scalar>& pivot, const RowScale& scale) {
 }
 
 template <class Scalar>
-void Unscale(Answer<Scalar>& answer, Trace<Scalar>* trace, const RowScale& scale) {
+void Unscale(Answer<Scalar>& answer, const RowScale& scale) {
   ScaleBy(answer.f, scale.f);
   ScaleBy(answer.first_f, scale.f);
   ScaleBy(answer.ray, scale.f, -scale.b);  // any length will do
-  if (trace == nullptr) return;
   using std::ldexp;
-  for (Pivot<Scalar>& pivot : trace->pivots) {
+  for (Pivot<Scalar>& pivot : answer.pivots) {
     const int unit = UnitOfStep(pivot, scale);
     ScaleBy(pivot.f, scale.f);
     ScaleBy(pivot.a, scale.a);
@@ -194,26 +187,25 @@ Answer<Scalar> Unstarted(const ContactProblem<Scalar>& problem, Outcome outcome,
 // Reduces, runs, restores.
 template <class Scalar>
 Answer<Scalar> RunOnRemainder(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
-                              const SolveOptions& options, Trace<Scalar>* trace) {
+                              const Request& request) {
   using Vector = typename ContactProblem<Scalar>::Vector;
-  const Remainder<Scalar> remainder(problem, options.tolerances);
+  const Remainder<Scalar> remainder(problem, request.tolerances);
   if (!remainder.Obstacle().empty()) return Unstarted(problem, Outcome::kSingular, remainder.Obstacle());
-  Answer<Scalar> answer = method.In(problem.dimension).run(remainder.problem(), options, trace);
+  Answer<Scalar> answer = method.In(problem.dimension).run(remainder.problem(), request);
   const auto rows = remainder.problem().rows();
   if (answer.f.size() == rows) answer.f = remainder.Forces(answer.f);
   if (rows > 0 && answer.ray.size() == rows) answer.ray = remainder.Direction(answer.ray);
   answer.first_f = remainder.Forces(Vector::Constant(rows, Scalar(0)));
   answer.word = remainder.Word(answer.word);
-  if (trace != nullptr)
-    for (Pivot<Scalar>& pivot : trace->pivots) pivot = remainder.Restored(std::move(pivot));
+  for (Pivot<Scalar>& pivot : answer.pivots) pivot = remainder.Restored(std::move(pivot));
   return answer;
 }
 
 template <class Scalar>
 Answer<Scalar> RunAsIs(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
-                       const SolveOptions& options, Trace<Scalar>* trace) {
-  if (!method.In(problem.dimension).takes_all_kinds) return RunOnRemainder(method, problem, options, trace);
-  Answer<Scalar> answer = method.In(problem.dimension).run(problem, options, trace);
+                       const Request& request) {
+  if (!method.In(problem.dimension).takes_all_kinds) return RunOnRemainder(method, problem, request);
+  Answer<Scalar> answer = method.In(problem.dimension).run(problem, request);
   if (answer.first_f.size() == 0)
     answer.first_f = ContactProblem<Scalar>::Vector::Constant(problem.rows(), Scalar(0));
   return answer;
@@ -289,26 +281,25 @@ void JudgeAnswer(const ContactProblem<Scalar>& problem, double bound, Answer<Sca
 
 template <class Scalar>
 Answer<Scalar> RunScaled(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
-                         const SolveOptions& options, Trace<Scalar>* trace) {
-  const bool compares = method.name == "baraff" && options.policy.scan == Scan::kMostViolated;
+                         const Request& request) {
+  const bool compares = method.name == "baraff" && request.policy.scan == Scan::kMostViolated;
   const RowScale scale = FindScale(problem, compares);
-  Answer<Scalar> answer = RunAsIs(method, Scaled(problem, scale), options, trace);
-  Unscale(answer, trace, scale);
+  Answer<Scalar> answer = RunAsIs(method, Scaled(problem, scale), request);
+  Unscale(answer, scale);
   return answer;
 }
 
 template <class Scalar>
 Answer<Scalar> SolveBy(const Method<Scalar>& method, const ContactProblem<Scalar>& problem,
-                       const SolveOptions& options, Trace<Scalar>* trace) {
-  if (trace != nullptr) trace->pivots.clear();
+                       const Request& request) {
   Answer<Scalar> answer;
   if constexpr (kIsExact<Scalar>) {
-    answer = RunAsIs(method, problem, options, trace);
+    answer = RunAsIs(method, problem, request);
     if (answer.f.size() == problem.rows()) answer.a = problem.A * answer.f + problem.b;
   } else {
-    answer = IsFinite(problem) ? RunScaled(method, problem, options, trace)
+    answer = IsFinite(problem) ? RunScaled(method, problem, request)
                                : Unstarted(problem, Outcome::kUndecided, "a number is not finite");
-    JudgeAnswer(problem, options.residual > 0 ? options.residual : kSolvedResidual<Scalar>, answer);
+    JudgeAnswer(problem, ResidualOf<Scalar>(request), answer);
   }
   answer.method = method.name;
   return answer;
@@ -324,14 +315,13 @@ const Method<Scalar>* FindMethod(std::string_view name) {
 // The methods that the table marks, until one solves or proves that nothing does; the first answer where none
 // does either. A proof keeps the ray that was met before: with sliding contacts it is the impulsive direction.
 template <class Scalar>
-Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const SolveOptions& options,
-                                  Trace<Scalar>* trace) {
+Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const Request& request) {
   std::optional<Answer<Scalar>> first;
   for (const bool is_first : {true, false}) {
     for (const Method<Scalar>& method : Methods<Scalar>()) {
       const bool comes_first = method.IsFirst(problem.dimension, problem.rows());
       if (comes_first != is_first || !(comes_first || method.IsAutomatic(problem.dimension))) continue;
-      Answer<Scalar> answer = SolveBy(method, problem, options, first ? nullptr : trace);
+      Answer<Scalar> answer = SolveBy(method, problem, request);
       if (answer.outcome == Outcome::kNoSolution && first) answer.ray = std::move(first->ray);
       if (answer.Solved() || answer.outcome == Outcome::kNoSolution) return answer;
       if (!first) first = std::move(answer);
@@ -341,15 +331,14 @@ Answer<Scalar> SolveAutomatically(const ContactProblem<Scalar>& problem, const S
 }
 
 template <class Scalar>
-Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, std::string_view method,
-                     const SolveOptions& options, Trace<Scalar>* trace) {
-  if (method == kAutomatic) return SolveAutomatically(problem, options, trace);
-  const Method<Scalar>* row = FindMethod<Scalar>(method);
+Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, const Request& request) {
+  if (request.method == kAutomatic) return SolveAutomatically(problem, request);
+  const Method<Scalar>* row = FindMethod<Scalar>(request.method);
   if (row == nullptr || !row->IsBuilt(problem.dimension))
-    throw std::invalid_argument("method " + std::string(method) + " is not built for dimension " +
+    throw std::invalid_argument("method " + std::string(request.method) + " is not built for dimension " +
                                 std::to_string(problem.dimension) + " over " +
                                 std::string(Name(kArithmeticOf<Scalar>)));
-  return SolveBy(*row, problem, options, trace);
+  return SolveBy(*row, problem, request);
 }
 
 }  // namespace stiction

@@ -47,13 +47,13 @@ inline std::string FaultOf(const ExactProblem& problem, const InexactAnswer& ans
 
 // What is wrong with a solution of the problem that calls itself solved; empty if nothing is, or if it does
 // not.
-inline std::string FaultOf(const ExactProblem& problem, const SolveRequest& request, const Solution& solution) {
+inline std::string FaultOf(const ExactProblem& problem, const Request& request, const Solution& solution) {
   if (solution.outcome() != Outcome::kSolved) return "";
   const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
   const bool filtered = request.arithmetic == Arithmetic::kFiltered;  // to the end, or with rounded forces
   const ExactProblem ran = filtered && exact ? problem : AsRun(problem, request.arithmetic);
   if (exact) return FaultOf(ran, *exact);
-  const double residual = request.options.residual;
+  const double residual = request.residual;
   const Gate gate =
       request.arithmetic == Arithmetic::kFloat ? GateOf<float>(residual) : GateOf<double>(residual);
   return FaultOf(ran, std::get<InexactAnswer>(solution.answer), gate);

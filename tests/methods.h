@@ -9,10 +9,10 @@
 namespace stiction::testing {
 
 inline ExactAnswer RunComplete(const ExactProblem& problem, const Limits& limits) {
-  return Solve(problem, "complete", {.limits = limits});
+  return Solve(problem, {.method = "complete", .limits = limits});
 }
 inline ExactAnswer RunLemke(const ExactProblem& problem, const Limits& limits) {
-  return Solve(problem, "lemke", {.limits = limits});
+  return Solve(problem, {.method = "lemke", .limits = limits});
 }
 
 }  // namespace stiction::testing

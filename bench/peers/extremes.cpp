@@ -240,7 +240,9 @@ void PrintLine(const Json& line) {
 }
 
 // Rounded to doubles a problem may have lost its solution.
-bool IsSolvable(const PeerProblem& problem) { return Solve(Unrounded(problem), "complete").Solved(); }
+bool IsSolvable(const PeerProblem& problem) {
+  return Solve(Unrounded(problem), {.method = "complete"}).Solved();
+}
 
 // The first wrong answer of a package and dial that is called a success, of a problem with a solution.
 class Examples {

@@ -37,13 +37,6 @@ double Held() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-template <class Statistics>
-Json CountsOf(const Statistics& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
-
 // `-afresh`: every direction system is eliminated afresh. The first run takes the memory; the median of three
 // more, where they are short, is the time.
 template <class Problem, class Solver>
@@ -56,7 +49,7 @@ Growth Grow(const Problem& problem, Solver solver) {
     const auto verdict = solver.Run(problem);
     seconds.push_back((ReadClocks() - start).Least());
     growth.solved = verdict.outcome == Outcome::kSolved;
-    growth.counts = CountsOf(verdict.statistics);
+    growth.counts = CountersToJson(CountersOf(verdict.statistics));
     if (seconds.size() == 1) growth.bytes = Held() - held;
   }
   if (seconds.size() > 1) seconds.erase(seconds.begin());
@@ -92,16 +85,17 @@ Json GrowthJson(const std::string& name, int contacts, const Growth& growth) {
 Json MeasureGrowth(bool friction, const PeersOptions& o) {
   using Published = PublishedAlgorithm<double>;
   using Complete = CompleteDriving<double>;
-  PublishedOptions published;
-  CompleteOptions complete;
-  published.update_from = complete.update_from = std::numeric_limits<int>::max();
+  const auto afresh = [](auto solver) {
+    solver.UpdateFrom(std::numeric_limits<int>::max());
+    return solver;
+  };
   const std::vector<std::string> drives = {"drives", "pivots"}, stages = {"stages", "pieces"};
   std::vector<GrowthMethod> methods = {
       {"published", drives, "steps", [](auto& problem) { return Grow(problem, Published()); }, false, {}, {}},
       {"published-afresh",
        drives,
        "steps",
-       [&](auto& problem) { return Grow(problem, Published(published)); },
+       [&](auto& problem) { return Grow(problem, afresh(Published())); },
        false,
        {},
        {}},
@@ -109,7 +103,7 @@ Json MeasureGrowth(bool friction, const PeersOptions& o) {
       {"complete-afresh",
        stages,
        "pieces",
-       [&](auto& problem) { return Grow(problem, Complete(complete)); },
+       [&](auto& problem) { return Grow(problem, afresh(Complete())); },
        false,
        {},
        {}},

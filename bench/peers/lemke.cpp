@@ -85,7 +85,7 @@ class InLanes : public Solver {
   explicit InLanes(const std::vector<PeerProblem>& problems) : alone_(problems), size_(problems.size()) {
     for (std::size_t i = 0; i < size_; ++i) {
       if (i % kBlockProblems == 0)
-        batches_.push_back(std::make_unique<Batch<Rows>>(BestInstructionSet(), PublishedOptions{}));
+        batches_.push_back(std::make_unique<Batch<Rows>>(BestInstructionSet(), Request{}));
       batches_.back()->Put(static_cast<int>(i % kBlockProblems), alone_.problem(i), {});
     }
   }

@@ -11,7 +11,7 @@ class OurContender : public Contender {
  public:
   void Load(const std::vector<PeerProblem>& problems) override { loaded_ = problems; }
   bool Solve(int k) override {
-    const Answer<double> answer = stiction::Solve(loaded_[k], kAutomatic, {});
+    const Answer<double> answer = stiction::Solve(loaded_[k]);
     f_ = answer.f;
     return answer.Solved();
   }

@@ -99,7 +99,7 @@ class CallContender : public OneOfOurs {
  public:
   explicit CallContender(std::string method) : method_(std::move(method)) {}
   bool Solve(int k) override {
-    answer_ = stiction::Solve(At(k), method_);
+    answer_ = stiction::Solve(At(k), {.method = method_});
     return answer_.Solved();
   }
   Eigen::VectorXd Forces() const override { return answer_.f; }
@@ -196,26 +196,22 @@ std::vector<PeerRow> FrictionlessRows() {
 }
 
 std::vector<PeerRow> PlanarRows() {
-  LemkeOptions units;
-  units.cover = Cover::kUnits;
   return Joined({LinearRows(),
                  {SiconosRow("Siconos NSGS 1e-9", SiconosMethod::kFriction2dNsgs),
                   SiconosRow("Siconos Lemke", SiconosMethod::kFriction2dLemke)},
                  DantzigRows(true),
                  {OurRow<PublishedAlgorithm<double>>("published"), OurRow<CompleteDriving<double>>("complete"),
-                  OurRow<LemkeAlgorithm<double>>("lemke", units), OurRow<FastSolver<double>>("fast"),
-                  CallRow("proximal"), CallRow("auto")}});
+                  OurRow<LemkeAlgorithm<double>>("lemke", Request{}, Cover::kUnits),
+                  OurRow<FastSolver<double>>("fast"), CallRow("proximal"), CallRow("auto")}});
 }
 
 std::vector<PeerRow> SpatialRows() {
-  CoulombOptions from_polygons;
-  from_polygons.start = CoulombStart::kComplete;
   const PeerRow polygons = {
       "polygons", "", {{"", [] { return std::make_unique<PolygonContender>(); }}}, Judge::kClaim};
   return Joined({LinearRows(),
                  {SiconosRow("Siconos NSGS 1e-9", SiconosMethod::kFriction3dNsgs), NewtonRow()},
                  DantzigRows(true),
-                 {polygons, OurRow<CoulombSolver<double>>("complete", from_polygons),
+                 {polygons, OurRow<CoulombSolver<double>>("complete", Request{}, CoulombStart::kComplete),
                   OurRow<CoulombSolver<double>>("fast"), CallRow("auto")}});
 }
 

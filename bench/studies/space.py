@@ -6,7 +6,7 @@
 A is positive semidefinite and b in its range: `definite` has 3 n + 1 columns, `one body` has 6, and its A is singular
 for three contacts and more. mu is 1/5, 1/2, 1, 2 or 5 at all contacts, in turn.
 
-Doubles suspect a loop where a rounded state recurs. It is run again over long double: there it recurs (same
+Doubles suspect a loop where a rounded state recurs. It is run again over quad: there it recurs (same
 start, same period), comes nearer to a loop (a later start, or another period), or is left again. Loops and rays are
 proved by intervals, which otherwise are unsure; what they decide, and not as doubles did, is counted as `differ`.
 slip=polygon is complete driving on polygons of eight sides, exact; `corners`: runs in which polygons got more of them."""
@@ -35,7 +35,7 @@ def draw(family, contacts, index, seed):
 
 
 def doubles(problems, policy, count):
-    """Runs over doubles, suspicions over long double, and all over intervals."""
+    """Runs over doubles, suspicions over quad, and all over intervals."""
     proved = stiction.solve_all(problems, "baraff", "interval", policy)
     run = stiction.solve_all(problems, "baraff", "double", policy)
     for name in ("redirects", "breaks"):

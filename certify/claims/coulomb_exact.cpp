@@ -380,7 +380,7 @@ Doubles InDoubles(const ExactProblem& problem) {
 // Forces near which a solution is looked for.
 Doubles::Vector ForcesNear(const Doubles& problem, const Limits& limits) {
   for (const std::string_view method : {"fast", "complete"}) {
-    const Answer<double> answer = Solve(problem, method, {.limits = limits, .law = FrictionLaw::kCoulomb});
+    const Answer<double> answer = Solve(problem, {.method = method, .limits = limits});
     if (answer.Solved()) return answer.f;
   }
   throw NothingShown{"no forces were found near which to look"};

@@ -58,7 +58,7 @@ Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
     try {
-      const Answer<Rational> answer = SolveBy(method, problem, {.limits = limits, .law = law});
+      const Answer<Rational> answer = SolveBy(method, problem, {.law = law, .limits = limits});
       if (answer.Solved() && answer.bound != Rational(0)) return Solved(problem, answer);
       ends.push_back(answer.Solved()
                          ? std::string(method.name) + ": forces without a bound on the angle of slip"
@@ -84,11 +84,12 @@ Existence DecideExistence(const ExactProblem& problem, const Limits& limits, con
     if (answer.Solved()) return Solved(problem, answer);
     ends.push_back(HowItEnded(answer));
   } else {
-    const Answer<Rational> answer = Solve(problem, "fast", {.limits = limits});
+    const Answer<Rational> answer = Solve(problem, {.method = "fast", .limits = limits});
     if (answer.Solved()) return Solved(problem, answer);
     ends.push_back(HowItEnded(answer));
   }
-  const Answer<Rational> answer = Solve(problem, "lemke", {.limits = limits});  // complete driving is done
+  const Answer<Rational> answer =
+      Solve(problem, {.method = "lemke", .limits = limits});  // complete driving is done
   if (answer.Solved()) return Solved(problem, answer);
   ends.push_back(HowItEnded(answer));
   EnumerationOptions first = options;

@@ -37,8 +37,8 @@ std::vector<PolicyEnds> EndsInSpace(const std::vector<Policy>& policies, const E
     ends.push_back(PolicyEnds{{policy},
                               answer.outcome,
                               std::string(answer.reason),
-                              ValueOf(answer.counters, "drives"),
-                              ValueOf(answer.counters, "steps")});
+                              answer.counters[Counter::kDrives],
+                              answer.counters[Counter::kSteps]});
   }
   return ends;
 }

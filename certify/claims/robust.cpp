@@ -42,11 +42,11 @@ IntervalProblem BoxAbout(const ExactProblem& problem, const Rational& radius) {
 
 }  // namespace
 
-bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options,
+bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const Request& request,
                  const Rational& radius) {
   STICTION_CHECK(PublishedHandles(problem), "static and frictionless contacts of the plane");
   if (run.verdict.outcome != Outcome::kCycle) return false;
-  return SameRun(BoxAbout(problem, radius), run, options);
+  return SameRun(BoxAbout(problem, radius), run, request);
 }
 
 std::optional<Rational> LargestRadius(const std::function<bool(const Rational&)>& holds) {
@@ -62,9 +62,9 @@ std::optional<Rational> LargestRadius(const std::function<bool(const Rational&)>
   return Rational(0);
 }
 
-std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const PublishedOptions& options) {
-  const ExactRun run = RunExact(problem, options);
-  return LargestRadius([&](const Rational& radius) { return LoopsWithin(problem, run, options, radius); });
+std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const Request& request) {
+  const ExactRun run = RunExact(problem, request);
+  return LargestRadius([&](const Rational& radius) { return LoopsWithin(problem, run, request, radius); });
 }
 
 }  // namespace stiction

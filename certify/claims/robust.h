@@ -32,13 +32,13 @@ namespace stiction {
 // The largest radius that is proved, of m 2^-k with 8 <= m < 16 and radius >= 2^-40; zero where only the
 // problem itself is. A lower bound of what the loop survives: intervals grow from step to step, and a tie is
 // one word of several. Empty unless the run loops in the outer loop and intervals prove that.
-std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const PublishedOptions& options);
+std::optional<Rational> RadiusOfLoop(const ExactProblem& problem, const Request& request);
 
 // The largest of these radii that holds; empty if not even zero does.
 std::optional<Rational> LargestRadius(const std::function<bool(const Rational&)>& holds);
 
 // Whether the theorem holds for this radius >= 0.
-bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options,
+bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const Request& request,
                  const Rational& radius);
 
 }  // namespace stiction

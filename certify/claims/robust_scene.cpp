@@ -206,14 +206,14 @@ TouchingScene Touching(const Scene<Rational>& scene) {
   return touching;
 }
 
-bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const PublishedOptions& options,
+bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const Request& request,
                       const Rational& radius) {
   STICTION_CHECK(sgn(radius) >= 0 && radius < 1, "a radius from 0 to 1");
   if (run.verdict.outcome != Outcome::kCycle) return false;
   try {
     const Box box(scene, radius);
     HeldBodies rows(box);
-    return SameRun(box.Problem(), run, options, &rows);
+    return SameRun(box.Problem(), run, request, &rows);
   } catch (const CGAL::Uncertain_conversion_exception&) {
     return false;  // a mass may vanish
   }
@@ -237,9 +237,9 @@ bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProb
                     [](const auto& wide, const auto& exact) { return Holds(wide.mu, exact.mu); });
 }
 
-std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const PublishedOptions& options) {
-  const ExactRun run = RunExact(scene.problem, options);
-  return LargestRadius([&](const Rational& radius) { return SceneLoopsWithin(scene, run, options, radius); });
+std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const Request& request) {
+  const ExactRun run = RunExact(scene.problem, request);
+  return LargestRadius([&](const Rational& radius) { return SceneLoopsWithin(scene, run, request, radius); });
 }
 
 }  // namespace stiction

@@ -54,10 +54,10 @@ std::optional<UnfitScene> UnfitForBox(const Scene<Rational>& scene);
 TouchingScene Touching(const Scene<Rational>& scene);
 
 // The largest radius that is proved, as RadiusOfLoop (robust.h) searches for it.
-std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const PublishedOptions& options);
+std::optional<Rational> RadiusOfSceneLoop(const TouchingScene& scene, const Request& request);
 
 // Whether the theorem holds for this radius, 0 <= radius < 1. `run`: that of the scene's problem.
-bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const PublishedOptions& options,
+bool SceneLoopsWithin(const TouchingScene& scene, const ExactRun& run, const Request& request,
                       const Rational& radius);
 
 // Whether in every scene of the box row `row` of the problem does not accelerate where the marked ones do not.

@@ -65,16 +65,16 @@ Json SuspicionToJson(const InexactAnswer& suspicion) {
 
 }  // namespace
 
-Json CountersToJson(const std::vector<Counter>& counters) {
+Json CountersToJson(const Counters& counters) {
   Json json = Json::object();
-  for (const Counter& counter : counters) json[std::string(counter.name)] = counter.value;
+  counters.ForEach([&json](Counter c, std::int64_t value) { json[Name(c)] = value; });
   return json;
 }
 
-std::string_view AnsweredBy(std::string_view method, const std::vector<Counter>& counters) {
+std::string_view AnsweredBy(std::string_view method, const Counters& counters) {
   if (method != "fast") return method;
-  if (ValueOf(counters, "fallbacks") > 0) return "complete";
-  return ValueOf(counters, "published") > 0 ? "baraff" : method;
+  if (counters[Counter::kFallbacks] > 0) return "complete";
+  return counters[Counter::kPublished] > 0 ? "baraff" : method;
 }
 
 Json SolutionToJson(const Solution& solution, int dimension) {

@@ -51,10 +51,10 @@ inline constexpr std::string_view kProofOfSets =
 inline constexpr std::string_view kProofOfBox =
     "proved: the steps from a state to the next of the same sets map a box of what it remembers into itself";
 
-Json CountersToJson(const std::vector<Counter>& counters);
+Json CountersToJson(const Counters& counters);
 
 // The row of the table that made an answer: `method`, or what stands behind it, as its counters tell.
-std::string_view AnsweredBy(std::string_view method, const std::vector<Counter>& counters);
+std::string_view AnsweredBy(std::string_view method, const Counters& counters);
 
 }  // namespace stiction
 

@@ -45,9 +45,9 @@ ExactRun Unstarted(const ExactProblem& problem, const Verdict& verdict) {
   return run;
 }
 
-ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& options) {
+ExactRun RunRemaining(const ExactProblem& problem, const Request& request) {
   constexpr std::size_t kPivotsExpected = 128;  // each that has to move is copied
-  PublishedAlgorithm<Rational> algorithm(options);
+  PublishedAlgorithm<Rational> algorithm(request);
   ExactRun run;
   run.trace.pivots.reserve(kPivotsExpected);
   run.verdict = algorithm.Run(problem, &run.trace);
@@ -61,11 +61,11 @@ ExactRun RunRemaining(const ExactProblem& problem, const PublishedOptions& optio
 
 }  // namespace
 
-ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options) {
+ExactRun RunExact(const ExactProblem& problem, const Request& request) {
   const Remainder<Rational> remainder(problem);
-  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), options))
+  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), request))
                                               : Unstarted(problem, VerdictOn(remainder));
-  run.policy = options.policy;
+  run.policy = request.policy;
   return run;
 }
 
@@ -75,7 +75,7 @@ namespace {
 class GridRunner {
  public:
   GridRunner(const ExactProblem& problem, const Limits& limits) : remainder_(problem) {
-    algorithm_.options().limits = limits;
+    algorithm_.request().limits = limits;
     trace_.keep_pivots = false;
   }
 
@@ -85,7 +85,7 @@ class GridRunner {
       known.policies.push_back(policy);
       return known;
     }
-    algorithm_.options().policy = policy;
+    algorithm_.request().policy = policy;
     const Verdict verdict =
         remainder_.Obstacle().empty() ? algorithm_.Run(remainder_.problem(), &trace_) : VerdictOn(remainder_);
     return classes_.emplace_back(PolicyClass{{policy}, trace_.consulted, verdict});

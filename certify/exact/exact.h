@@ -40,7 +40,7 @@ struct ExactRun {
 };
 
 // Requires dimension 2.
-ExactRun RunExact(const ExactProblem& problem, const PublishedOptions& options);
+ExactRun RunExact(const ExactProblem& problem, const Request& request);
 
 // Policies that take the same steps on a problem. The trace is that of the first of them.
 struct PolicyClass {

@@ -71,8 +71,7 @@ Eigen::VectorXd MiddleOf(const Vector& values) {
 }
 
 template <class Number>
-InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
-                        KeepTrace keep) {
+InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, const Request& request) {
   const EnclosedRemainder<Ball<Number>> remainder(problem, &BallAround<Number>);
   InexactAnswer answer;
   answer.method = method;
@@ -84,13 +83,11 @@ InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, co
   }
   std::optional<ExactDependentRows> dependent;
   if (kAsksForDependentRows<Number>) dependent.emplace(remainder.exact());
-  SolveOptions enclosed = options;
+  Request enclosed = request;
   enclosed.dependent = dependent ? &*dependent : nullptr;
-  Trace<Ball<Number>> trace;
   const Method<Ball<Number>>* row = FindMethod<Ball<Number>>(method);
   STICTION_CHECK(row != nullptr, "a method over enclosures");
-  const Answer<Ball<Number>> end =
-      row->plane.run(remainder.problem(), enclosed, keep == KeepTrace::kYes ? &trace : nullptr);
+  const Answer<Ball<Number>> end = row->plane.run(remainder.problem(), enclosed);
   answer.outcome = end.outcome;
   answer.reason = end.reason;
   answer.start = end.start;
@@ -106,22 +103,22 @@ InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, co
     answer.a_enclosed = EndsOf(a);
   }
   if (end.outcome == Outcome::kRay) answer.ray = MiddleOf(remainder.Direction(end.ray));
-  for (const Pivot<Ball<Number>>& pivot : trace.pivots)
+  for (const Pivot<Ball<Number>>& pivot : end.pivots)
     answer.pivots.push_back(Converted<double>(remainder.Restored(pivot), &Approximation<Ball<Number>>::Of));
   return answer;
 }
 
 }  // namespace
 
-InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
-                          Rung rung, KeepTrace keep) {
+InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const Request& request,
+                          Rung rung) {
   switch (rung) {
     case Rung::kDouble:
-      return RunOnRung<double>(method, problem, options, keep);
+      return RunOnRung<double>(method, problem, request);
     case Rung::kDoubleDouble:
-      return RunOnRung<dd_real>(method, problem, options, keep);
+      return RunOnRung<dd_real>(method, problem, request);
     default:
-      return RunOnRung<LongFloat>(method, problem, options, keep);
+      return RunOnRung<LongFloat>(method, problem, request);
   }
 }
 
@@ -131,10 +128,10 @@ namespace {
 
 // Empty where a sign is unsure.
 template <class Number>
-std::optional<Verdict> TryPublished(const ExactProblem& problem, const PublishedOptions& options,
+std::optional<Verdict> TryPublished(const ExactProblem& problem, const Request& request,
                                     DependentRows* dependent) {
   thread_local PublishedAlgorithm<Ball<Number>> algorithm;
-  algorithm.options() = options;
+  algorithm.request() = request;
   algorithm.KnowDependentRows(dependent);
   try {
     return algorithm.Run(Converted<Ball<Number>>(problem, &BallAround<Number>));
@@ -145,30 +142,30 @@ std::optional<Verdict> TryPublished(const ExactProblem& problem, const Published
 
 }  // namespace
 
-OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options, const Rungs& rungs) {
+OnRung RunPublishedFiltered(const ExactProblem& problem, const Request& request, const Rungs& rungs) {
   const Remainder<Rational> remainder(problem);
   if (!remainder.Obstacle().empty()) {
     return {{Outcome::kSingular, remainder.Obstacle()}, Rung::kExact};
   }
   const ExactProblem& remaining = remainder.problem();
   if (rungs.first == Rung::kDouble) {
-    if (const auto verdict = TryPublished<double>(remaining, options, nullptr))
+    if (const auto verdict = TryPublished<double>(remaining, request, nullptr))
       return {*verdict, Rung::kDouble, /*by_balls=*/true};
   }
   if (rungs.first < Rung::kExact) {
     ExactDependentRows dependent(remaining);
     if (Rung::kDoubleDouble <= rungs.last) {
-      if (const auto verdict = TryPublished<dd_real>(remaining, options, &dependent))
+      if (const auto verdict = TryPublished<dd_real>(remaining, request, &dependent))
         return {*verdict, Rung::kDoubleDouble, /*by_balls=*/true};
     }
     if (Rung::kExact == rungs.last && remaining.rows() >= kLongFrom) {
-      if (const auto verdict = TryPublished<LongFloat>(remaining, options, &dependent))
+      if (const auto verdict = TryPublished<LongFloat>(remaining, request, &dependent))
         return {*verdict, Rung::kExact, /*by_balls=*/true};
     }
   }
   if (rungs.last != Rung::kExact || !rungs.with_rationals)
     return {{Outcome::kUndecided, kUnsureSign}, rungs.last};
-  PublishedAlgorithm<Rational> algorithm(options);
+  PublishedAlgorithm<Rational> algorithm(request);
   return {algorithm.Run(remaining), Rung::kExact};
 }
 
@@ -208,7 +205,7 @@ template <class Number>
 std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits& limits,
                                        DependentRows* dependent) {
   thread_local CompleteDriving<Ball<Number>> driving;
-  driving.options().limits = limits;
+  driving.request().limits = limits;
   driving.KnowDependentRows(dependent);
   ExactAnswer answer;
   try {
@@ -230,7 +227,7 @@ std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits
 
 ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limits) {
   const auto exactly = [&] {
-    ExactAnswer answer = Solve(problem, "complete", {.limits = limits});
+    ExactAnswer answer = Solve(problem, {.method = "complete", .limits = limits});
     answer.rung = Rung::kExact;
     return answer;
   };
@@ -291,8 +288,7 @@ ExactAnswer TellExactly(const InexactAnswer& run, ExactVector f, ExactVector a, 
 
 }  // namespace
 
-CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem,
-                               const SolveOptions& options) {
+CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem, const Request& request) {
   constexpr int kWords = 16;
   std::optional<ContactProblem<double>> rounded;
   try {
@@ -300,9 +296,11 @@ CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& prob
   } catch (const RangeError&) {
     return {};
   }
-  const InexactAnswer run = Solve(*rounded, method, options);
+  Request by_method = request;
+  by_method.method = method;
+  const InexactAnswer run = Solve(*rounded, by_method);
   if (!run.Solved()) return {};
-  const double bound = BoundOf<double>(options);
+  const double bound = ResidualOf<double>(request);
   const auto enclose = [&](const ModeWord& word) {
     const auto solution = EncloseWord(*rounded, word);
     return solution ? TellEnclosed(*rounded, *solution, bound, run) : std::nullopt;

@@ -45,8 +45,8 @@ std::span<const Method<Ball<double>>> Methods<Ball<double>>();
 // middle of them otherwise, as pivots; undecided where a sign was unsure. Its forces are not judged. Lemke's
 // method takes a covering vector of ones. Requires dimension 2. On the rung exact no rationals are run. The
 // answer keeps METHOD, which has to outlive it.
-InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const SolveOptions& options,
-                          Rung rung, KeepTrace keep = KeepTrace::kNo);
+InexactAnswer RunEnclosed(std::string_view method, const ExactProblem& problem, const Request& request,
+                          Rung rung);
 
 // The rungs that a run is tried on. A suspicion of doubles is better begun on the second: the first seldom
 // tells what rounding did not. A run that begins on the rung exact is one over rationals.
@@ -63,8 +63,7 @@ struct OnRung {
 };
 
 // The published algorithm. Requires dimension 2. A thread keeps the memory of its runs.
-OnRung RunPublishedFiltered(const ExactProblem& problem, const PublishedOptions& options,
-                            const Rungs& rungs = {});
+OnRung RunPublishedFiltered(const ExactProblem& problem, const Request& request, const Rungs& rungs = {});
 
 // Complete driving: the counters of the run over rationals, but the end is not believed. The equations of the
 // last word are solved over rationals, and the solution is verified; what that does not give, the run over
@@ -76,8 +75,7 @@ ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limit
 // word are of the run over doubles. Empty where it solved nothing, or doubles do not hold the problem, or no
 // cells near have a solution. Requires dimension 2, and a method that is built over doubles.
 using CertifiedAnswer = std::variant<std::monostate, ExactAnswer, InexactAnswer>;
-CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem,
-                               const SolveOptions& options);
+CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
 

@@ -16,11 +16,6 @@
 
 namespace stiction {
 
-template <class Scalar>
-double BoundOf(const SolveOptions& options) {
-  return options.residual > 0 ? options.residual : kSolvedResidual<Scalar>;
-}
-
 template <class Vector>
 Eigen::VectorXd InDoubles(const Vector& values) {
   return values.template cast<double>();
@@ -31,7 +26,7 @@ Pivot<double> InDoubles(const Pivot<Scalar>& pivot) {
   return Converted<double>(pivot, [](const Scalar& x) { return static_cast<double>(x); });
 }
 
-// Forces of long double are rounded to what is told of them before they are judged.
+// Forces of wide numbers are rounded to what is told of them before they are judged.
 template <class Scalar>
 InexactAnswer InDoubles(const Answer<Scalar>& answer, const ContactProblem<Scalar>& problem, double bound) {
   InexactAnswer result;
@@ -58,13 +53,13 @@ InexactAnswer InDoubles(const Answer<Scalar>& answer, const ContactProblem<Scala
 }
 
 // InputError where the published algorithm in space has no such reading.
-inline void RequireReading(const ExactProblem& problem, const SolveRequest& request) {
+inline void RequireReading(const ExactProblem& problem, const Request& request) {
   const bool concerned = problem.dimension == 3 && request.method == "baraff";
-  if (!concerned || PublishedReadsInSpace(request.options.policy)) return;
+  if (!concerned || PublishedReadsInSpace(request.policy)) return;
   throw InputError(
       fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "
                   "slip=polygon alone; no other reading of these is built",
-                  PolicyName(request.options.policy)));
+                  PolicyName(request.policy)));
 }
 
 }  // namespace stiction

@@ -52,22 +52,21 @@ OnPolygons RunLemkeInSpace(const ExactProblem& problem, RationalPolygons polygon
   if (!remainder.Obstacle().empty()) {
     run.answer.outcome = Outcome::kSingular;
     run.answer.reason = remainder.Obstacle();
-    run.answer.counters = CountersOf(CompleteStatistics());
+    run.answer.counters = kCompleteCounters;
     return run;
   }
   RationalPolygons kept;
   for (std::size_t i = 0; i < remainder.problem().contacts.size(); ++i)
     kept.push_back(polygons[remainder.ContactOf(static_cast<int>(i))]);
   run.polygons = std::move(polygons);
-  LemkeOptions options;
-  options.limits = limits;
-  LemkeAlgorithm<Rational> lemke(options);
-  const Verdict verdict = lemke.Run(remainder.problem(), kept, trace);
+  LemkeAlgorithm<Rational> lemke({.limits = limits});
+  const RunEnd<> verdict = lemke.Run(remainder.problem(), kept, trace);
   if (trace != nullptr)
     for (Pivot<Rational>& pivot : trace->pivots) pivot = remainder.Restored(std::move(pivot));
   run.answer.outcome = verdict.outcome;
   run.answer.reason = verdict.reason;
-  run.answer.counters = CountersOf(CompleteStatistics{.pieces = verdict.statistics.pivots});
+  run.answer.counters = kCompleteCounters;
+  run.answer.counters[Counter::kPieces] = verdict.statistics[Counter::kPivots];
   if (verdict.outcome == Outcome::kRay) run.answer.ray = remainder.Direction(lemke.ray());
   if (verdict.outcome != Outcome::kSolved) return run;
   run.answer.f = remainder.Forces(lemke.f());

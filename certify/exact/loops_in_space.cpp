@@ -123,8 +123,8 @@ class Memory {
 // A run over numbers of so many bits, from f = 0 or from a state.
 class Walk {
  public:
-  Walk(const ContactProblem<FineInterval>& problem, const Memory& memory, const PublishedOptions& options)
-      : memory_(memory), run_(options) {
+  Walk(const ContactProblem<FineInterval>& problem, const Memory& memory, const Request& request)
+      : memory_(memory), run_(request) {
     run_.Begin(problem, &trace_);
   }
   void StandAt(const StateInSpace& state) { run_.StandAt(state); }
@@ -187,11 +187,11 @@ class FineProblem {
  public:
   FineProblem(const ExactProblem& problem, const Policy& policy, const Limits& limits)
       : memory_(problem),
-        options_{policy, {}, limits},
+        request_{.policy = policy, .limits = limits},
         problem_(Converted<FineInterval>(problem, [](const Rational& x) { return FineInterval::Around(x); })) {}
 
   const Memory& memory() const { return memory_; }
-  Walk Begin() const { return {problem_, memory_, options_}; }
+  Walk Begin() const { return {problem_, memory_, request_}; }
 
   // Over a period of so many drives, from the state with other coordinates. RunEnded where it comes to another
   // state.
@@ -257,7 +257,7 @@ class FineProblem {
   }
 
   Memory memory_;
-  PublishedOptions options_;
+  Request request_;
   ContactProblem<FineInterval> problem_;
 };
 

@@ -22,7 +22,6 @@ namespace stiction {
 namespace {
 
 using ExactMethod = Method<Rational>;
-using ExactTrace = Trace<Rational>;
 
 constexpr std::int64_t kAutomaticPrograms = 10000;  // linear programs, before `auto` leaves a problem open
 constexpr std::int64_t kAutomaticProgramsInSpace = 2000;
@@ -30,23 +29,23 @@ constexpr std::int64_t kAutomaticProgramsInSpace = 2000;
 // ---- Runs ------------------------------------------------------------------------------------
 
 template <SpaceEngine kEngine>
-Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options, ExactTrace* trace) {
-  return SolveInSpace(problem, SpaceOptionsOf(options, kEngine), trace);
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const Request& request) {
+  return SolveInSpace(problem, request, kEngine);
 }
 
 // The first solution in the order of the mode words, or that there is none.
-Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+Answer<Rational> RunEnumeration(const ExactProblem& problem, const Request& request) {
   Answer<Rational> answer;
-  if (options.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
+  if (request.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
     answer.reason = kStopped;
     return answer;
   }
   EnumerationOptions enumeration;
   enumeration.first_solution_only = true;
-  enumeration.programs = std::min(options.limits.pivots, kAutomaticPrograms);
-  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  enumeration.programs = std::min(request.limits.pivots, kAutomaticPrograms);
+  enumeration.progress = [&request](const EnumerationProgress&) { return !request.limits.Stopped(); };
   const Enumeration modes = EnumerateModes(problem, enumeration);
-  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  answer.counters = {{Counter::kPrefixes, modes.prefixes}, {Counter::kPrograms, modes.programs}};
   if (!modes.solutions.empty()) {
     answer.outcome = Outcome::kSolved;
     answer.f = modes.solutions.front().f;
@@ -63,16 +62,16 @@ Answer<Rational> RunEnumeration(const ExactProblem& problem, const SolveOptions&
 }
 
 // That there is no solution, or nothing.
-Answer<Rational> RunRefutation(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
+Answer<Rational> RunRefutation(const ExactProblem& problem, const Request& request) {
   EnumerationOptions enumeration;
-  enumeration.programs = std::min(options.limits.pivots, kAutomaticProgramsInSpace);
-  enumeration.progress = [&options](const EnumerationProgress&) { return !options.limits.Stopped(); };
+  enumeration.programs = std::min(request.limits.pivots, kAutomaticProgramsInSpace);
+  enumeration.progress = [&request](const EnumerationProgress&) { return !request.limits.Stopped(); };
   Answer<Rational> answer;
-  answer.law = options.law;
+  answer.law = request.law;
   answer.reason = kStopped;
-  if (options.limits.Stopped()) return answer;
+  if (request.limits.Stopped()) return answer;
   const Enumeration modes = RefuteInSpace(problem, enumeration);
-  answer.counters = {{"prefixes", modes.prefixes}, {"programs", modes.programs}};
+  answer.counters = {{Counter::kPrefixes, modes.prefixes}, {Counter::kPrograms, modes.programs}};
   if (modes.ProvesNoSolution()) {
     answer.outcome = Outcome::kNoSolution;
     answer.reason = "no mode of the contacts has a solution; certify writes the proof";
@@ -86,13 +85,14 @@ Answer<Rational> RunRefutation(const ExactProblem& problem, const SolveOptions& 
 }
 
 // Ipopt proposes, exact arithmetic decides.
-Answer<Rational> RunIpopt(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
+Answer<Rational> RunIpopt(const ExactProblem& problem, const Request&) {
   IpoptProposer proposer;
   ProposalStatistics statistics;
   auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
   Answer<Rational> answer;
-  answer.counters = {
-      {"starts", statistics.starts}, {"iterations", statistics.iterations}, {"words", statistics.words}};
+  answer.counters = {{Counter::kStarts, statistics.starts},
+                     {Counter::kIterations, statistics.iterations},
+                     {Counter::kWords, statistics.words}};
   if (f) {
     answer.outcome = Outcome::kSolved;
     answer.f = *std::move(f);
@@ -118,9 +118,9 @@ NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) 
       found.words += near.words;
       near = std::move(found);
     };
-    look_near(Solve(rounded, "fast", {.limits = limits}).f);
+    look_near(Solve(rounded, {.method = "fast", .limits = limits}).f);
     if (near.f) return near;
-    ProximalNewton<double> proximal({.aim = 1e-13, .limits = limits});
+    ProximalNewton<double> proximal({.limits = limits}, 1e-13);
     proximal.Run({rounded.dimension, rounded.contacts, rounded.A.sparseView(), rounded.b});
     look_near(proximal.f());
   } catch (const InputError&) {
@@ -129,39 +129,43 @@ NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) 
 }
 
 // The published algorithm within a budget of steps. It passes many ties sooner than complete driving.
-Answer<Rational> RunPublishedBriefly(const ExactProblem& problem, SolveOptions options) {
+Answer<Rational> RunPublishedBriefly(const ExactProblem& problem, Request request) {
   constexpr int kStepsOfRow = 4;
-  options.limits.pivots = std::min<std::int64_t>(options.limits.pivots, kStepsOfRow * (problem.rows() + 1));
-  return Solve(problem, "baraff", options);
+  request.method = "baraff";
+  request.limits.pivots = std::min<std::int64_t>(request.limits.pivots, kStepsOfRow * (problem.rows() + 1));
+  return Solve(problem, request);
 }
 
 // Where the cells of doubles are none, the published algorithm and complete driving.
-Answer<Rational> RunFastExactly(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
-  NearbyWords near = SolveNearDoubles(problem, options.limits);
+Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& request) {
+  NearbyWords near = SolveNearDoubles(problem, request.limits);
   Answer<Rational> answer;
   bool drove = false;
   if (near.f) {
     answer.outcome = Outcome::kSolved;
     answer.f = *std::move(near.f);
   } else {
-    answer = RunPublishedBriefly(problem, options);
+    answer = RunPublishedBriefly(problem, request);
     drove = !answer.Solved();
-    if (drove) answer = Solve(problem, "complete", options);
+    if (drove) {
+      Request complete = request;
+      complete.method = "complete";
+      answer = Solve(problem, complete);
+    }
   }
-  answer.counters = {{"words", near.words}, {"published", !near.f}, {"fallbacks", drove}};
+  answer.counters = {
+      {Counter::kWords, near.words}, {Counter::kPublished, !near.f}, {Counter::kFallbacks, drove}};
   return answer;
 }
 
 // In space the modes of its point, solved exactly.
-Answer<Rational> RunFastInSpace(const ExactProblem& problem, const SolveOptions& options, ExactTrace*) {
-  return SolveNearFast(problem, SpaceOptionsOf(options, SpaceEngine::kComplete));
+Answer<Rational> RunFastInSpace(const ExactProblem& problem, const Request& request) {
+  return SolveNearFast(problem, request);
 }
 
-Answer<Rational> RunQp(const ExactProblem& problem, const SolveOptions&, ExactTrace*) {
-  return SolveQp(problem);
-}
+Answer<Rational> RunQp(const ExactProblem& problem, const Request&) { return SolveQp(problem); }
 
-Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const SolveOptions&, Trace<double>*) {
+Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const Request&) {
   IpoptProposer proposer;
   ExactProblem normals = Unrounded(problem);
   normals.dimension = 2;  // without friction space is the plane
@@ -243,7 +247,7 @@ std::span<const ExactMethod> Methods<Rational>() {
   return rows;
 }
 
-template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template Answer<Rational> Solve(const ExactProblem&, const Request&);
 template const ExactMethod* FindMethod(std::string_view);
 
 std::span<const Method<double>> MethodsOverDoubles() {

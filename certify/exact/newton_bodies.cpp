@@ -10,12 +10,11 @@ namespace {
 
 using Factored = FactoredProblem<double>;
 
-Answer<double> RunBodies(const Factored& problem, const SolveOptions& options) {
-  BodyNewtonOptions bodies;
-  bodies.residual = BoundOf<double>(options) / 2;  // the rest is for the rounding that the gate counts
-  bodies.aim = std::min(bodies.aim, bodies.residual);
-  bodies.limits = options.limits;
-  BodyNewton<double> method(bodies);
+Answer<double> RunBodies(const Factored& problem, const Request& request) {
+  Request aiming = request;
+  aiming.residual = ResidualOf<double>(request) / 2;  // the rest is for the rounding that the gate counts
+  BodyNewton<double> method(aiming);
+  method.aim = std::min(method.aim, aiming.residual);
   auto answer = AnswerOf<double>(method.Run(problem));
   answer.method = kNewtonBodies;
   answer.law = FrictionLaw::kCoulomb;
@@ -23,9 +22,9 @@ Answer<double> RunBodies(const Factored& problem, const SolveOptions& options) {
   return answer;
 }
 
-Answer<double> RunDense(const ContactProblem<double>& problem, const SolveOptions& options, Trace<double>*) {
+Answer<double> RunDense(const ContactProblem<double>& problem, const Request& request) {
   Answer<double> answer;
-  if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, options);
+  if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, request);
   answer.law = FrictionLaw::kCoulomb;
   if (problem.rows() == 0) {
     answer.outcome = Outcome::kSolved;
@@ -37,9 +36,9 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const SolveOption
 
 }  // namespace
 
-InexactAnswer SolveByBodies(const ExactFactors& problem, const SolveOptions& options) {
+InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request) {
   const Factored rounded = InDoubles(problem);
-  InexactAnswer answer = RunBodies(rounded, options);
+  InexactAnswer answer = RunBodies(rounded, request);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) {
     answer.f.resize(0);
     answer.outcome = Outcome::kUndecided;
@@ -48,7 +47,7 @@ InexactAnswer SolveByBodies(const ExactFactors& problem, const SolveOptions& opt
   const ExactProblem::Vector f = answer.f.unaryExpr([](double x) { return Rational(x); });
   const ExactProblem::Vector a = problem.Accelerations(f);
   answer.a = a.unaryExpr(&ToDouble);
-  JudgeExactly(problem, f, a, BoundOf<double>(options), answer);
+  JudgeExactly(problem, f, a, ResidualOf<double>(request), answer);
   return answer;
 }
 

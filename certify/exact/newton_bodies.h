@@ -19,9 +19,9 @@ namespace stiction {
 
 inline constexpr std::string_view kNewtonBodies = "newton-bodies";
 
-// Of the options, residual and limits.stop are read. The best forces that were found, with their errors,
+// Of the request, residual and limits.stop are read. The best forces that were found, with their errors,
 // however it ends; none if they are not finite.
-InexactAnswer SolveByBodies(const ExactFactors& problem, const SolveOptions& options);
+InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request);
 
 // The row of the table, for dense problems.
 Method<double> NewtonBodiesRow();

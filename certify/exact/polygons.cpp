@@ -13,9 +13,7 @@ namespace stiction {
 
 OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
                     Trace<Rational>* trace) {
-  CompleteOptions options;
-  options.limits = limits;
-  CompleteDriving<Rational> driving(options);
+  CompleteDriving<Rational> driving({.limits = limits});
   OnPolygons run = {AnswerOf<Rational>(driving.Run(problem, polygons, trace)), driving.word(),
                     std::move(polygons)};
   run.answer.f = driving.f();
@@ -172,17 +170,18 @@ bool TryWeak(const ExactProblem& problem, OnPolygons& run, Answer<Rational>& ans
 
 }  // namespace
 
-Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
-                                 Trace<Rational>* trace) {
-  const auto engine = options.engine == SpaceEngine::kLemke ? &RunLemkeInSpace : &RunSpace;
-  RationalPolygons polygons = MakePolygons(problem, options.sides);
+Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const Request& request, SpaceEngine engine,
+                                 const Toward& toward) {
+  const auto run_engine = engine == SpaceEngine::kLemke ? &RunLemkeInSpace : &RunSpace;
+  Trace<Rational> trace;
+  RationalPolygons polygons = MakePolygons(problem, request.sides);
   Answer<Rational> answer;
-  answer.law = options.law;
+  answer.law = request.law;
   int refinements = 0;
   for (;; ++refinements) {
-    OnPolygons run = engine(problem, std::move(polygons), options.limits, trace);
+    OnPolygons run = run_engine(problem, std::move(polygons), request.limits, request.trace ? &trace : nullptr);
     run.refinements = refinements;
-    for (const Counter& counter : run.answer.counters) Add(answer.counters, counter.name, counter.value);
+    answer.counters += run.answer.counters;
     const bool ended = !run.answer.Solved();
     if (ended && answer.Solved()) break;  // a bound that was not improved
     answer.word = Name(run.word, 3);
@@ -192,27 +191,19 @@ Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const SpaceOptions
       answer.ray = std::move(run.answer.ray);
       break;
     }
-    if (toward(run, answer) || refinements == options.refinements) break;
+    if (toward(run, answer) || refinements == kRefinements) break;
     polygons = std::move(run.polygons);
   }
-  answer.counters.push_back({"refinements", refinements});
+  answer.counters.Tell(Counter::kRefinements) = refinements;
+  answer.pivots = std::move(trace.pivots);
   return answer;
 }
 
-Answer<Rational> SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace) {
+Answer<Rational> SolveWeakly(const ExactProblem& problem, const Request& request, SpaceEngine engine) {
   const auto toward = [&problem](OnPolygons& run, Answer<Rational>& answer) {
     return TryWeak(problem, run, answer);
   };
-  return SolveOnPolygons(problem, options, toward, trace);
-}
-
-SpaceOptions SpaceOptionsOf(const SolveOptions& options, SpaceEngine engine) {
-  SpaceOptions space;
-  space.engine = engine;
-  space.law = options.law;
-  space.sides = options.sides;
-  space.limits = options.limits;
-  return space;
+  return SolveOnPolygons(problem, request, engine, toward);
 }
 
 }  // namespace stiction

@@ -32,16 +32,7 @@ OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, cons
                     Trace<Rational>* trace = nullptr);
 
 enum class SpaceEngine { kComplete, kLemke };
-
-struct SpaceOptions {
-  FrictionLaw law = FrictionLaw::kBaraff;
-  SpaceEngine engine = SpaceEngine::kComplete;
-  int sides = 8;         // of every polygon at the start
-  int refinements = 20;  // runs with more corners, at most
-  Limits limits;
-};
-
-SpaceOptions SpaceOptionsOf(const SolveOptions& options, SpaceEngine engine);
+inline constexpr int kRefinements = 20;  // runs with more corners, at most
 
 // One step from a solution on polygons toward the law: whether it is the last. Otherwise the polygons have more
 // corners after it. What the law accepts stands in the answer.
@@ -49,11 +40,11 @@ using Toward = std::function<bool(OnPolygons& run, Answer<Rational>& answer)>;
 
 // Requires dimension 3. solved; ray, limit and undecided as the engine ends; undecided if no refinement helped.
 // Word and trace are those of the last polygons, counters of all runs.
-Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const SpaceOptions& options, const Toward& toward,
-                                 Trace<Rational>* trace);
+Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const Request& request, SpaceEngine engine,
+                                 const Toward& toward);
 
-// Toward (21), (22), whatever options.law.
-Answer<Rational> SolveWeakly(const ExactProblem& problem, const SpaceOptions& options, Trace<Rational>* trace);
+// Toward (21), (22), whatever request.law.
+Answer<Rational> SolveWeakly(const ExactProblem& problem, const Request& request, SpaceEngine engine);
 
 // f solves the problem.
 void Accept(const ExactProblem& problem, const ExactVector& f, Answer<Rational>& answer);

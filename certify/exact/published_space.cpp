@@ -28,10 +28,9 @@ void SetEnd(std::vector<Enclosure> f, std::vector<Enclosure> a, InexactAnswer& a
   answer.a_enclosed = std::move(a);
 }
 
-Answer<Interval> RunOverIntervals(const ContactProblem<Interval>& problem, const SolveOptions& options,
-                                  Trace<Interval>*) {
-  PublishedInSpace<Interval> algorithm({options.policy, options.tolerances, options.limits});
-  PublishedSpaceVerdict verdict;
+Answer<Interval> RunOverIntervals(const ContactProblem<Interval>& problem, const Request& request) {
+  PublishedInSpace<Interval> algorithm(request);
+  Verdict verdict;
   try {
     verdict = algorithm.Run(problem);
   } catch (const UnsureComparison&) {
@@ -40,6 +39,7 @@ Answer<Interval> RunOverIntervals(const ContactProblem<Interval>& problem, const
     verdict.reason = kUnsureSign;
   }
   auto answer = AnswerOf<Interval>(verdict);
+  answer.counters = algorithm.counters();
   answer.f = algorithm.f();
   answer.a = algorithm.a();
   if (answer.outcome == Outcome::kRay) answer.ray = algorithm.ray();
@@ -54,7 +54,7 @@ std::span<const Method<Interval>> Methods<Interval>() {
   return rows;
 }
 
-InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options) {
+InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const Request& request) {
   const EnclosedRemainder<Interval> remainder(problem, Around);
   const Method<Interval>& method = Methods<Interval>().front();
   InexactAnswer answer;
@@ -64,21 +64,19 @@ InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOp
   if (remainder.end() != ReductionEnd::kReduced) {
     answer.outcome = Outcome::kSingular;
     answer.reason = Reason(remainder.end());
-    answer.counters = CountersOf(PublishedSpaceVerdict().statistics);
+    answer.counters = PublishedInSpace<Interval>().counters();
     SetEnd(std::vector<Enclosure>(problem.rows()), Enclosures(problem.b.unaryExpr(&Around)), answer);
     return answer;
   }
-  const Answer<Interval> end = method.space.run(
-      remainder.problem(),
-      {.policy = options.policy, .tolerances = options.tolerances, .limits = options.limits}, nullptr);
+  const Answer<Interval> end = method.space.run(remainder.problem(), request);
   answer.outcome = end.outcome;
   answer.reason = end.reason;
   answer.start = end.start;
   answer.period = end.period;
   answer.counters = end.counters;
   SetEnd(Enclosures(remainder.Forces(end.f)), Enclosures(remainder.Accelerations(end.f, end.a)), answer);
-  if (end.outcome == Outcome::kUndecided && !options.limits.Stopped()) {
-    if (const auto loop = ProveLoopInSpace(remainder.exact(), options.policy, options.limits)) {
+  if (end.outcome == Outcome::kUndecided && !request.limits.Stopped()) {
+    if (const auto loop = ProveLoopInSpace(remainder.exact(), request.policy, request.limits)) {
       answer.outcome = Outcome::kCycle;
       answer.reason = loop->IsBox() ? kStaysInBox : "";
       answer.start = loop->start;

@@ -25,13 +25,13 @@ namespace stiction {
 
 inline constexpr std::string_view kStaysInBox = "it never leaves a box";
 
-// Requires dimension 3 and PublishedReadsInSpace(options.policy).
+// Requires dimension 3 and PublishedReadsInSpace(request.policy).
 //
 // Double ends around the problem's numbers; f, a and ray are the midpoints, which nobody has judged. Of the
 // tolerances loop_grain alone is read.
 //
 // `cycle` with kStaysInBox for its reason: the run never ends, though no state need ever repeat.
-InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const PublishedOptions& options);
+InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
 

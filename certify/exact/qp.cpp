@@ -75,7 +75,7 @@ Answer<Rational> SolveQp(const ExactProblem& problem) {
     for (int j = 0; j < rows; ++j) row.push_back(Scaled(problem.A(i, j), p));
   }
   const QuadraticEnd end = Minimize(program);
-  run.counters = {{"iterations", end.iterations}};
+  run.counters = {{Counter::kIterations, end.iterations}};
   Rational unit(p, q);
   unit.canonicalize();
   ExactVector x(rows);

@@ -9,7 +9,7 @@ Answer<double> SolveQpByIpopt(const ExactProblem& problem, IpoptProposer& ipopt)
   ProposalStatistics statistics;
   const auto point = ipopt.ProposePoint(problem, options, statistics);
   Answer<double> answer;
-  answer.counters = {{"iterations", statistics.iterations}};
+  answer.counters = {{Counter::kIterations, statistics.iterations}};
   if (point) {
     answer.f = Eigen::VectorXd::Map(point->data(), problem.rows());
     answer.reason =

@@ -23,10 +23,10 @@ bool SameDecision(const Pivot<Scalar>& one, const Pivot<Rational>& other) {
 
 // False as well where a comparison cannot be decided. `rows`: of every problem of the box; or null.
 template <class Scalar>
-bool SameRun(const ContactProblem<Scalar>& box, const ExactRun& run, PublishedOptions options,
+bool SameRun(const ContactProblem<Scalar>& box, const ExactRun& run, Request request,
              DependentRows* rows = nullptr) {
-  options.limits.drives = run.verdict.start + run.verdict.period;
-  PublishedAlgorithm<Scalar> algorithm(options);
+  request.limits.drives = run.verdict.start + run.verdict.period;
+  PublishedAlgorithm<Scalar> algorithm(request);
   algorithm.KnowDependentRows(rows);
   Trace<Scalar> trace;
   try {

@@ -19,8 +19,7 @@
 
 namespace stiction {
 
-extern template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&,
-                                       Trace<Rational>*);
+extern template Answer<Rational> Solve(const ExactProblem&, const Request&);
 extern template const Method<Rational>* FindMethod(std::string_view);
 
 // What is built over doubles alone, beside the table of the library: some in a process of its own.
@@ -29,17 +28,6 @@ std::span<const Method<double>> MethodsOverDoubles();
 // Rows from which on `auto` over rationals begins with the cells that doubles find (method fast): the path
 // itself costs more there, even with certified signs, than the equations of its end.
 inline constexpr int kCellsFirst = 16;
-
-enum class KeepTrace { kNo, kYes };
-
-struct SolveRequest {
-  std::string method{kAutomatic};
-  Arithmetic arithmetic = Arithmetic::kExact;
-  SolveOptions options = {};
-  const FactoredProblem<Rational>* factors = nullptr;  // of the same problem, where it has some
-  KeepTrace trace = KeepTrace::kNo;                    // of path methods
-  bool confirm = true;                                 // whether suspicions are run again
-};
 
 using ExactAnswer = Answer<Rational>;
 using InexactAnswer = Answer<double>;
@@ -53,18 +41,8 @@ struct Solution {
   }
 };
 
-// A run of a method of the table, with its path where that is asked for.
-template <class Scalar>
-Answer<Scalar> SolveWithPath(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
-  Trace<Scalar> trace;
-  const bool keep = request.trace == KeepTrace::kYes;
-  Answer<Scalar> answer = Solve(problem, request.method, request.options, keep ? &trace : nullptr);
-  answer.pivots = std::move(trace.pivots);
-  return answer;
-}
-
 // Over rationals, whatever arithmetic the request names. What is called solved was verified.
-ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request);
+ExactAnswer SolveExactly(const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
 

@@ -17,8 +17,8 @@ std::optional<std::string> ViolationOf(const ExactProblem& problem, const Answer
 
 }  // namespace
 
-ExactAnswer SolveExactly(const ExactProblem& problem, const SolveRequest& request) {
-  ExactAnswer answer = SolveWithPath(problem, request);
+ExactAnswer SolveExactly(const ExactProblem& problem, const Request& request) {
+  ExactAnswer answer = Solve(problem, request);
   if (!answer.Solved()) return answer;
   const auto violation = ViolationOf(problem, answer);
   STICTION_CHECK(!violation, fmt::format("{} calls solved what is not: {}", answer.method, *violation));

@@ -41,9 +41,7 @@ std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector&
 // The word of Newton's method from f, solved exactly.
 std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
                                           const ExactVector& f) {
-  CoulombOptions options;
-  options.sides = 0;  // from f only
-  CoulombSolver<double> solver(options);
+  CoulombSolver<double> solver({.sides = 0});  // from f only
   const ContactProblem<double>::Vector start = f.unaryExpr([](const Rational& x) { return ToDouble(x); });
   if (!start.allFinite() || !rounded.A.allFinite() || !rounded.b.allFinite()) return std::nullopt;
   if (solver.Run(rounded, &start).outcome != Outcome::kSolved) return std::nullopt;
@@ -114,47 +112,44 @@ void CallBounded(Answer<Rational>& answer) {
 
 }  // namespace
 
-Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
-                              Trace<Rational>* trace) {
-  if (options.law == FrictionLaw::kBaraff) return SolveWeakly(problem, options, trace);
+Answer<Rational> SolveInSpace(const ExactProblem& problem, const Request& request, SpaceEngine engine) {
+  if (request.law == FrictionLaw::kBaraff) return SolveWeakly(problem, request, engine);
   const ContactProblem<double> rounded = Rounded<double>(problem);
   const auto toward = [&](OnPolygons& run, Answer<Rational>& answer) {
     return TryCoulomb(problem, rounded, run, answer);
   };
-  Answer<Rational> answer = SolveOnPolygons(problem, options, toward, trace);
+  Answer<Rational> answer = SolveOnPolygons(problem, request, engine, toward);
   CallBounded(answer);
   return answer;
 }
 
-Answer<Rational> SolveNear(const ExactProblem& problem, const SpaceOptions& options, const Eigen::VectorXd& f) {
+Answer<Rational> SolveNear(const ExactProblem& problem, const Request& request, const Eigen::VectorXd& f) {
   Answer<Rational> answer;
-  answer.law = options.law;
-  answer.counters = CountersOf(CompleteStatistics());
-  answer.counters.push_back({"refinements", 0});
+  answer.law = request.law;
+  answer.counters = kCompleteCounters;
+  answer.counters.Tell(Counter::kRefinements) = 0;
   answer.reason = "the modes near these forces are no solution";
   if (f.size() != problem.rows() || !f.allFinite()) return answer;
   const ExactVector near = f.unaryExpr([](double x) { return Rational(x); });
   const auto exact = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
   if (!exact) return answer;
   const auto bound = CoulombBound(problem, *exact);
-  if (options.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *exact).has_value()
+  if (request.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *exact).has_value()
                                           : !bound || *bound <= 0)
     return answer;
   Accept(problem, *exact, answer);
-  if (options.law == FrictionLaw::kCoulomb) answer.bound = *bound;
+  if (request.law == FrictionLaw::kCoulomb) answer.bound = *bound;
   CallBounded(answer);
   return answer;
 }
 
-Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options) {
+Answer<Rational> SolveNearFast(const ExactProblem& problem, const Request& request) {
   Eigen::VectorXd f;
   try {
-    f = Solve(Rounded<double>(problem), "fast",
-              {.limits = options.limits, .law = FrictionLaw::kCoulomb, .sides = options.sides})
-            .f;
+    f = Solve(Rounded<double>(problem), {.method = "fast", .limits = request.limits, .sides = request.sides}).f;
   } catch (const InputError&) {  // doubles do not hold the problem
   }
-  Answer<Rational> answer = SolveNear(problem, options, f);
+  Answer<Rational> answer = SolveNear(problem, request, f);
   if (answer.outcome == Outcome::kUndecided && !answer.bound)
     answer.reason = "the modes of the fast method's point are no solution";
   return answer;

@@ -29,16 +29,16 @@
 
 namespace stiction {
 
-// Requires dimension 3. The trace is that of the last polygons.
-Answer<Rational> SolveInSpace(const ExactProblem& problem, const SpaceOptions& options,
-                              Trace<Rational>* trace = nullptr);
+// Requires dimension 3. The path is that of the last polygons.
+Answer<Rational> SolveInSpace(const ExactProblem& problem, const Request& request,
+                              SpaceEngine engine = SpaceEngine::kComplete);
 
 // The modes of the point in which the fast method ends over doubles (solver/numeric/fast.h), solved exactly:
 // whether or not b is in range(A). undecided where they are no solution, or doubles do not hold the problem.
-Answer<Rational> SolveNearFast(const ExactProblem& problem, const SpaceOptions& options);
+Answer<Rational> SolveNearFast(const ExactProblem& problem, const Request& request);
 
 // The modes near forces over doubles, f rows x 1, solved exactly; undecided where they are no solution.
-Answer<Rational> SolveNear(const ExactProblem& problem, const SpaceOptions& options, const Eigen::VectorXd& f);
+Answer<Rational> SolveNear(const ExactProblem& problem, const Request& request, const Eigen::VectorXd& f);
 
 // The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
 // condition whatever c.

@@ -30,8 +30,7 @@ class FactsList {
   // What is decided exactly can be told in floating-point numbers, too.
   void AddToldExactly() {
     for (MethodFacts& facts : rows_) {
-      for (const Arithmetic told : {kFloat, kDouble, kLongDouble, kQuad})
-        Mark(facts, 2, told, facts.IsBuilt(2, kExact));
+      for (const Arithmetic told : {kFloat, kDouble, kQuad}) Mark(facts, 2, told, facts.IsBuilt(2, kExact));
     }
   }
 
@@ -64,7 +63,7 @@ std::vector<MethodFacts> MakeFacts() {
   FactsList list;
   list.Add(Methods<Rational>(), {kExact});
   list.AddToldExactly();
-  list.Add(Methods<double>(), {kFloat, kDouble, kLongDouble, kQuad});
+  list.Add(Methods<double>(), {kFloat, kDouble, kQuad});
   list.Add(MethodsOverDoubles(), {kDouble});
   // What is run over balls is a rung of filtered runs, and the one of intervals.
   list.Add(Methods<Ball<double>>(), {kInterval, kFiltered});

@@ -23,15 +23,12 @@ std::int64_t QuadSteps(const ContactProblem<double>& problem) {
 }
 
 // Newton's method from forces that doubles found.
-Answer<double> PolishInSpace(const ContactProblem<double>& problem, const SolveOptions& options,
+Answer<double> PolishInSpace(const ContactProblem<double>& problem, const Request& request,
                              const Eigen::VectorXd& from) {
   const RowScale scale = FindScale(problem);
-  CoulombOptions coulomb;
-  coulomb.limits = options.limits;
-  coulomb.sides = 0;
-  coulomb.residual = BoundOf<double>(options) / 2;
-  coulomb.most_newton_steps = QuadSteps(problem);
-  CoulombSolver<Quad> solver(coulomb);
+  CoulombSolver<Quad> solver(
+      {.limits = request.limits, .residual = ResidualOf<double>(request) / 2, .sides = 0});
+  solver.most_newton_steps = QuadSteps(problem);
   ContactProblem<Quad>::Vector start = from.cast<Quad>();
   for (int i = 0; i < start.size(); ++i) start[i] = ldexp(start[i], -scale.f[i]);
   auto answer = AnswerOf<double>(solver.Run(InQuad(Scaled(problem, scale)), &start));
@@ -41,15 +38,16 @@ Answer<double> PolishInSpace(const ContactProblem<double>& problem, const SolveO
   answer.method = "fast";
   answer.arithmetic = Arithmetic::kQuad;
   answer.first_f = Eigen::VectorXd::Zero(problem.rows());
-  JudgeAnswer(problem, BoundOf<double>(options), answer);
+  JudgeAnswer(problem, ResidualOf<double>(request), answer);
   return answer;
 }
 
-Answer<double> SolveFinelyInPlane(const ContactProblem<double>& problem, const SolveOptions& options) {
-  SolveOptions few = options;
-  few.limits.pivots = std::min(options.limits.pivots, QuadSteps(problem));
+Answer<double> SolveFinelyInPlane(const ContactProblem<double>& problem, const Request& request) {
+  Request few = request;
+  few.method = "fast";
+  few.limits.pivots = std::min(request.limits.pivots, QuadSteps(problem));
   const ContactProblem<Quad> fine = InQuad(problem);
-  Answer<double> answer = InDoubles(Solve(fine, "fast", few), fine, BoundOf<double>(options));
+  Answer<double> answer = InDoubles(Solve(fine, few), fine, ResidualOf<double>(request));
   answer.arithmetic = Arithmetic::kQuad;
   return answer;
 }
@@ -62,17 +60,22 @@ bool IsBetter(const Answer<double>& x, const Answer<double>& y) {
 
 }  // namespace
 
-Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options) {
+Solution SolveEscalating(const ContactProblem<double>& problem, const Request& request) {
   const bool in_space = problem.dimension == 3;
-  SolveOptions quick = options;
+  const auto by = [&request](std::string_view method) {
+    Request named = request;
+    named.method = method;
+    return named;
+  };
+  Request quick = by(in_space ? "fast" : kAutomatic);
   if (in_space) quick.sides = 0;
-  Answer<double> best = in_space ? Solve(problem, "fast", quick) : Solve(problem, kAutomatic, quick);
+  Answer<double> best = Solve(problem, quick);
   if (!in_space && best.outcome == Outcome::kSingular) {
-    Answer<double> proximal = Solve(problem, "proximal", options);
+    Answer<double> proximal = Solve(problem, by("proximal"));
     if (proximal.Solved()) return {.answer = std::move(proximal)};
   }
   const bool is_open = !best.Solved() && best.outcome != Outcome::kNoSolution;
-  if (!is_open || options.limits.Stopped() || best.f.size() != problem.rows() || !best.f.allFinite())
+  if (!is_open || request.limits.Stopped() || best.f.size() != problem.rows() || !best.f.allFinite())
     return {.answer = std::move(best)};
   const Answer<double> doubles = best;
   bool is_fine = false;
@@ -82,8 +85,8 @@ Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptio
     is_fine = fine;
   };
   if (QuadSteps(problem) > 0)
-    consider(in_space ? PolishInSpace(problem, options, best.f) : SolveFinelyInPlane(problem, options), true);
-  if (!best.Solved() && in_space) consider(Solve(problem, kAutomatic, options), false);
+    consider(in_space ? PolishInSpace(problem, request, best.f) : SolveFinelyInPlane(problem, request), true);
+  if (!best.Solved() && in_space) consider(Solve(problem, by(kAutomatic)), false);
   Solution told = {.answer = std::move(best)};
   if (is_fine) told.suspected = doubles;
   return told;

@@ -18,7 +18,7 @@ namespace stiction {
 inline constexpr std::int64_t kQuadOperations = 40'000'000;
 
 // The method `auto` over doubles. `suspected`: what doubles said, where quad answers.
-Solution SolveEscalating(const ContactProblem<double>& problem, const SolveOptions& options);
+Solution SolveEscalating(const ContactProblem<double>& problem, const Request& request);
 
 }  // namespace stiction
 

@@ -18,7 +18,7 @@ std::span<const Method<Quad>> Methods<Quad>() {
   return FloatingMethods<Quad>();
 }
 
-template Answer<Quad> Solve(const ContactProblem<Quad>&, std::string_view, const SolveOptions&, Trace<Quad>*);
+template Answer<Quad> Solve(const ContactProblem<Quad>&, const Request&);
 template const Method<Quad>* FindMethod(std::string_view);
 template void JudgeAnswer(const ContactProblem<Quad>&, double, Answer<Quad>&);
 

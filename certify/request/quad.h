@@ -29,8 +29,7 @@ inline ContactProblem<Quad> Rounded(const ExactProblem& problem) {
 template <>
 std::span<const Method<Quad>> Methods<Quad>();
 
-extern template Answer<Quad> Solve(const ContactProblem<Quad>&, std::string_view, const SolveOptions&,
-                                   Trace<Quad>*);
+extern template Answer<Quad> Solve(const ContactProblem<Quad>&, const Request&);
 extern template const Method<Quad>* FindMethod(std::string_view);
 extern template void JudgeAnswer(const ContactProblem<Quad>&, double, Answer<Quad>&);
 

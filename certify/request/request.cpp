@@ -61,22 +61,24 @@ void RequirePathArithmetic(const Wanted& wanted) {
 }
 
 // All but the arithmetic.
-SolveRequest NamedRequest(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
-  SolveRequest request{.method = wanted.method, .options = wanted.options};
-  request.options.policy = ParsePolicy(wanted.policy);
+Request NamedRequest(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+  Request request = wanted.request;
+  const MethodFacts* facts = FindMethodFacts(wanted.method);
+  request.method = facts != nullptr ? facts->name : kAutomatic;
+  request.policy = ParsePolicy(wanted.policy);
   const FrictionLaw usual = wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
-  request.options.law = LawNamed(wanted.law, usual, problem.dimension, source, wanted.dashes);
-  if (!AreSides(wanted.options.sides))
+  request.law = LawNamed(wanted.law, usual, problem.dimension, source, wanted.dashes);
+  if (!AreSides(wanted.request.sides))
     throw InputError(
-        fmt::format("{}sides: found {}, expected {}", wanted.dashes, wanted.options.sides, kSidesExpected));
-  if (wanted.method != "baraff" && request.options.policy != Policy{})
+        fmt::format("{}sides: found {}, expected {}", wanted.dashes, wanted.request.sides, kSidesExpected));
+  if (wanted.method != "baraff" && request.policy != Policy{})
     throw InputError(fmt::format("{0}policy {1}: expected {0}method baraff, of which it is a reading",
                                  wanted.dashes, wanted.policy));
   return request;
 }
 
 // Over floating-point numbers the methods of space solve Coulomb's law, which is more than (21), (22) ask.
-void RequireLaw(const Wanted& wanted, const SolveRequest& request) {
+void RequireLaw(const Wanted& wanted, const Request& request) {
   if (wanted.law != "baraff" || request.method == "baraff" || request.arithmetic == Arithmetic::kExact) return;
   throw InputError(
       fmt::format("{0}law baraff: found {0}method {1} over {2}, expected {0}arithmetic exact, or {0}method "
@@ -85,17 +87,17 @@ void RequireLaw(const Wanted& wanted, const SolveRequest& request) {
                   wanted.dashes, request.method, Name(request.arithmetic)));
 }
 
-void RequireBuilt(const SolveRequest& request, const ExactProblem& problem, const std::string& source) {
+void RequireBuilt(const Request& request, const ExactProblem& problem, const std::string& source) {
   const std::string refusal = Refusal(request.method, problem.dimension, request.arithmetic);
   if (!refusal.empty()) throw InputError(source + ": " + refusal);
 }
 
 }  // namespace
 
-SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+Request RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
   RequireMethod(wanted);
-  SolveRequest request = NamedRequest(wanted, problem, source);
-  const bool polygon = wanted.method == "baraff" && request.options.policy == ParsePolicy("slip=polygon");
+  Request request = NamedRequest(wanted, problem, source);
+  const bool polygon = wanted.method == "baraff" && request.policy == ParsePolicy("slip=polygon");
   if (problem.dimension == 3 && polygon) request.method = "complete";  // which that reading is
   request.arithmetic =
       wanted.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic : ArithmeticNamed(wanted);
@@ -104,11 +106,11 @@ SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const 
   return request;
 }
 
-SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+Request PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
   RequirePathMethod(wanted);
-  SolveRequest request = NamedRequest(wanted, problem, source);
-  request.trace = KeepTrace::kYes;
-  if (wanted.law.empty()) request.options.law = FrictionLaw::kBaraff;
+  Request request = NamedRequest(wanted, problem, source);
+  request.trace = true;
+  if (wanted.law.empty()) request.law = FrictionLaw::kBaraff;
   if (!wanted.arithmetic.empty()) {
     RequirePathArithmetic(wanted);
     request.arithmetic = ArithmeticNamed(wanted);
@@ -133,9 +135,10 @@ std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem) {
   return "";
 }
 
-Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source) {
+Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
+                    const ExactFactors* factors) {
   try {
-    return SolveIn(problem, request);
+    return SolveIn(problem, request, factors);
   } catch (const InputError& error) {
     throw InputError(source + ": " + error.what());
   }

@@ -19,13 +19,13 @@ namespace stiction {
 
 struct SparseProblem;  // corpus/record/sparse_problem.h
 
-// Of `options`, policy and law are set by their names here.
+// Of `request`, method, arithmetic, policy and law are set by their names here.
 struct Wanted {
   std::string method{kAutomatic};
   std::string arithmetic;  // empty: the usual one
   std::string policy = "paper";
   std::string law = "";  // the paper's of method baraff and of runs that are followed, otherwise Coulomb's
-  SolveOptions options = {};
+  Request request = {};
   std::string_view dashes = "--";  // before the name of an option, where an error tells of it
 };
 
@@ -35,20 +35,21 @@ inline constexpr bool AreSides(int sides) { return sides >= 4 && sides % 4 == 0;
 
 // The request, checked against the table of methods. A polygon reading of the published algorithm in space is
 // complete driving. InputError that names what is no name or does not fit the problem of `source`.
-SolveRequest RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+Request RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
 
 // Likewise of a run that is followed step by step: of a method with a path, under no other's name, and by
 // default exact where it is built so, otherwise over doubles.
-SolveRequest PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+Request PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
 // What it can be followed in: not over intervals, which have bounds of the forces in place of forces.
-inline constexpr std::array<std::string_view, 6> kPathArithmetics = {"exact",       "float", "double",
-                                                                     "long-double", "quad",  "filtered"};
+inline constexpr std::array<std::string_view, 5> kPathArithmetics = {"exact", "float", "double", "quad",
+                                                                     "filtered"};
 
 // The option that does not go with an A that stays sparse, as its name and value; empty where all do.
 std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem);
 
 // SolveIn, whose InputError then names the source.
-Solution SolveAsked(const ExactProblem& problem, const SolveRequest& request, const std::string& source);
+Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
+                    const ExactFactors* factors = nullptr);
 
 // ---- Certificates ----
 

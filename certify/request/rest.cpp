@@ -193,7 +193,7 @@ class AlongEdges {
     pushing.A = E_.transpose() * rounded_.A * E_;
     pushing.b = E_.transpose() * rounded_.b;
     pushing.b.array() -= margin * pushing.b.cwiseAbs().maxCoeff();
-    Eigen::VectorXd x = Solve(pushing, "fast", SolveOptions{}).f;
+    Eigen::VectorXd x = Solve(pushing, {.method = "fast"}).f;
     return x.allFinite() ? x : Eigen::VectorXd();
   }
 

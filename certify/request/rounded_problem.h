@@ -35,7 +35,7 @@ class RoundedProblem {
   ExactProblem File() const { return changed_ ? *changed_ : Unrounded(numbers_); }
 
   // An exact method, run on the rounded numbers.
-  InexactAnswer RunExactly(const SolveRequest& request, double bound) const {
+  InexactAnswer RunExactly(const Request& request, double bound) const {
     const ExactAnswer exact = SolveExactly(Unrounded(numbers_), request);
     InexactAnswer told = Told(exact, request.arithmetic, bound);
     if (exact.outcome != Outcome::kNoSolution || IsFile()) return told;

@@ -28,16 +28,15 @@ constexpr int kExactRows = 60, kExactRowsInSpace = 24;  // from which on `auto` 
 
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
-         arithmetic == Arithmetic::kLongDouble || arithmetic == Arithmetic::kQuad;
+         arithmetic == Arithmetic::kQuad;
 }
 
 // ---- Exact numbers -------------------------------------------------------------------------------
 
 // `auto` prefers, of several solutions, one whose contacts rest. The word is of the one that was found first.
 template <class Scalar>
-bool MayPreferRest(const Answer<Scalar>& answer, const SolveRequest& request) {
-  return request.method == kAutomatic && request.trace == KeepTrace::kNo && answer.Solved() &&
-         !request.options.limits.Stopped();
+bool MayPreferRest(const Answer<Scalar>& answer, const Request& request) {
+  return request.method == kAutomatic && !request.trace && answer.Solved() && !request.limits.Stopped();
 }
 
 // Squares of accelerations, of contacts as if A_ii were 1: no units of theirs change it.
@@ -50,16 +49,17 @@ Rational Motion(const ExactProblem& problem, const ExactVector& a) {
 
 // In space, of solutions whose contacts slip, the one of Newton's method in the space of bodies if it moves
 // less: its steps are those of the least change.
-void PreferLessMotion(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
+void PreferLessMotion(const ExactProblem& problem, const Request& request, const ExactFactors* factors,
+                      ExactAnswer& answer) {
   if (problem.dimension != 3 || answer.law != FrictionLaw::kCoulomb || answer.a.isZero(0)) return;
   Eigen::VectorXd f;
   try {
-    f = request.factors != nullptr ? SolveByBodies(*request.factors, request.options).f
-                                   : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request.options).f;
+    f = factors != nullptr ? SolveByBodies(*factors, request).f
+                           : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f;
   } catch (const InputError&) {  // doubles do not hold the problem
     return;
   }
-  ExactAnswer other = SolveNear(problem, SpaceOptionsOf(request.options, SpaceEngine::kComplete), f);
+  ExactAnswer other = SolveNear(problem, request, f);
   if (!other.Solved()) return;
   const Rational mine = Motion(problem, answer.a), least = Motion(problem, other.a);
   constexpr double kAlike = 1e-6;  // what bounded directions of slip leave
@@ -72,10 +72,11 @@ void PreferLessMotion(const ExactProblem& problem, const SolveRequest& request, 
   answer.word.clear();
 }
 
-void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactAnswer& answer) {
+void PreferRest(const ExactProblem& problem, const Request& request, const ExactFactors* factors,
+                ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
-  if (!rest) return PreferLessMotion(problem, request, answer);
+  if (!rest) return PreferLessMotion(problem, request, factors, answer);
   answer.f = std::move(rest->f);
   answer.a = Accelerations(problem, answer.f);
   answer.word.clear();
@@ -83,9 +84,10 @@ void PreferRest(const ExactProblem& problem, const SolveRequest& request, ExactA
   if (answer.bound) answer.bound = CoulombBound(problem, answer.f).value_or(0);
 }
 
-ExactAnswer SolveRestingExactly(const ExactProblem& problem, const SolveRequest& request) {
+ExactAnswer SolveRestingExactly(const ExactProblem& problem, const Request& request,
+                                const ExactFactors* factors) {
   ExactAnswer answer = SolveExactly(problem, request);
-  PreferRest(problem, request, answer);
+  PreferRest(problem, request, factors, answer);
   return answer;
 }
 
@@ -109,7 +111,7 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
 // Forces that rest are found exactly, and rounded. `rounded`: the problem that was solved; file(): that of
 // which it is a rounding.
 template <class File>
-void PreferRestRounded(const ContactProblem<double>& rounded, File file, const SolveRequest& request,
+void PreferRestRounded(const ContactProblem<double>& rounded, File file, const Request& request,
                        InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
@@ -117,7 +119,7 @@ void PreferRestRounded(const ContactProblem<double>& rounded, File file, const S
   if (!rest) return;
   InexactAnswer resting = answer;
   resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  JudgeAnswer(rounded, BoundOf<double>(request.options), resting);
+  JudgeAnswer(rounded, ResidualOf<double>(request), resting);
   if (!resting.Solved()) return;
   if (!answer.f_enclosed.empty()) resting.a = answer.a;
   for (int i = 0; i < static_cast<int>(answer.f_enclosed.size()); ++i) {
@@ -134,18 +136,18 @@ void PreferRestRounded(const ContactProblem<double>& rounded, File file, const S
 
 // ---- Floating point ------------------------------------------------------------------------------
 
-// The published algorithm in space again: over long double, loop_grain 1e-12, tolerances of at most 1e-14.
-InexactAnswer RunFinely(const ContactProblem<double>& problem, SolveRequest request) {
-  Tolerances& t = request.options.tolerances;
+// The published algorithm in space again: over quad, loop_grain 1e-12, tolerances of at most 1e-14.
+InexactAnswer RunFinely(const ContactProblem<double>& problem, Request request) {
+  Tolerances& t = request.tolerances;
   for (double* tolerance : {&t.acceleration, &t.force, &t.pivot}) *tolerance = std::min(*tolerance, 1e-14);
   t.loop_grain = std::min(t.loop_grain, 1e-12);
-  request.trace = KeepTrace::kNo;
-  const auto wide = Converted<long double>(problem, [](double x) { return static_cast<long double>(x); });
-  return InDoubles(SolveWithPath(wide, request), wide, BoundOf<double>(request.options));
+  request.trace = false;
+  const auto wide = Converted<Quad>(problem, [](double x) { return Quad(x); });
+  return InDoubles(Solve(wide, request), wide, ResidualOf<double>(request));
 }
 
 // The suspicion of a run of the published algorithm in space: the same problem, more finely.
-void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& request, Solution& solution) {
+void RunAgainInSpace(const ContactProblem<double>& ran, const Request& request, Solution& solution) {
   InexactAnswer& first = std::get<InexactAnswer>(solution.answer);
   InexactAnswer again = RunFinely(ran, request);
   again.arithmetic = first.arithmetic;
@@ -155,11 +157,11 @@ void RunAgainInSpace(const ContactProblem<double>& ran, const SolveRequest& requ
 
 // An answer that is only a suspicion: the same problem is run again where that decides more.
 template <class Scalar>
-void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request, Solution& solution) {
+void Confirm(const RoundedProblem<Scalar>& problem, const Request& request, Solution& solution) {
   const InexactAnswer first = std::get<InexactAnswer>(solution.answer);
   const MethodFacts* facts = FindMethodFacts(request.method);
   const bool is_path = facts != nullptr && facts->HasPath();
-  if (first.Solved() || !is_path || !request.confirm || request.options.limits.Stopped()) return;
+  if (first.Solved() || !is_path || !request.confirm || request.limits.Stopped()) return;
   const int dimension = problem.numbers().dimension;
   if (dimension == 3 && request.method == "baraff") {
     RunAgainInSpace(
@@ -172,17 +174,17 @@ void Confirm(const RoundedProblem<Scalar>& problem, const SolveRequest& request,
   if (problem.IsFile()) {
     solution.answer = SolveExactly(problem.File(), request);
   } else {
-    solution.answer = problem.RunExactly(request, BoundOf<Scalar>(request.options));
+    solution.answer = problem.RunExactly(request, ResidualOf<Scalar>(request));
   }
 }
 
 // What decides exactly decides the problem of the file, in whatever numbers its forces are asked for: these are
 // rounded, and judged on the problem that is rounded as they are.
 template <class Scalar>
-Solution SolveAndRound(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
+Solution SolveAndRound(const RoundedProblem<Scalar>& problem, const Request& request) {
   ExactAnswer exact = SolveExactly(problem.File(), request);
   if (exact.outcome == Outcome::kNoSolution) return {.answer = std::move(exact)};
-  return {.answer = problem.Told(exact, request.arithmetic, BoundOf<Scalar>(request.options))};
+  return {.answer = problem.Told(exact, request.arithmetic, ResidualOf<Scalar>(request))};
 }
 
 // The row that is built over doubles alone; null if there is none.
@@ -203,40 +205,41 @@ bool IsFloatingMethod(std::string_view name) {
 }
 
 template <class Scalar>
-Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const SolveRequest& request) {
+Answer<Scalar> RunRounded(const ContactProblem<Scalar>& problem, const Request& request) {
   if (const Method<Scalar>* row = FindOverDoubles<Scalar>(request.method))
-    return SolveBy(*row, problem, request.options);
-  return SolveWithPath(problem, request);
+    return SolveBy(*row, problem, request);
+  return Solve(problem, request);
 }
 
 // By the factors that the problem came in, where they are asked for by name or `auto` may take them; empty
 // where the methods for all problems are to try, too.
-std::optional<InexactAnswer> SolveByFactors(const SolveRequest& request) {
+std::optional<InexactAnswer> SolveByFactors(const Request& request, const ExactFactors* factors) {
   const bool is_named = request.method == kNewtonBodies, any = request.method == kAutomatic;
-  if (request.factors == nullptr || (!is_named && !any)) return std::nullopt;
-  InexactAnswer answer = SolveByBodies(*request.factors, request.options);
-  if (!is_named && !answer.Solved() && !request.options.limits.Stopped()) return std::nullopt;
+  if (factors == nullptr || (!is_named && !any)) return std::nullopt;
+  InexactAnswer answer = SolveByBodies(*factors, request);
+  if (!is_named && !answer.Solved() && !request.limits.Stopped()) return std::nullopt;
   return answer;
 }
 
 template <class Scalar>
-Solution SolveRounded(const RoundedProblem<Scalar>& problem, const SolveRequest& request) {
+Solution SolveRounded(const RoundedProblem<Scalar>& problem, const Request& request,
+                      const ExactFactors* factors) {
   const ContactProblem<Scalar>& rounded = problem.numbers();
   const auto file = [&problem] { return problem.File(); };
   Solution solution;
   if constexpr (std::is_same_v<Scalar, double>) {
-    if (auto answer = SolveByFactors(request)) {
+    if (auto answer = SolveByFactors(request, factors)) {
       PreferRestRounded(rounded, file, request, *answer);
       return {.answer = *std::move(answer)};
     }
-    if (request.method == kAutomatic && request.trace == KeepTrace::kNo) {
-      solution = SolveEscalating(rounded, request.options);
+    if (request.method == kAutomatic && !request.trace) {
+      solution = SolveEscalating(rounded, request);
       PreferRestRounded(rounded, file, request, std::get<InexactAnswer>(solution.answer));
       return solution;
     }
   }
   if (!IsFloatingMethod<Scalar>(request.method)) return SolveAndRound(problem, request);
-  solution.answer = InDoubles(RunRounded(rounded, request), rounded, BoundOf<Scalar>(request.options));
+  solution.answer = InDoubles(RunRounded(rounded, request), rounded, ResidualOf<Scalar>(request));
   Confirm(problem, request, solution);
   const auto ran = Converted<double>(rounded, [](const Scalar& x) { return static_cast<double>(x); });
   if (auto* answer = std::get_if<InexactAnswer>(&solution.answer))
@@ -245,35 +248,32 @@ Solution SolveRounded(const RoundedProblem<Scalar>& problem, const SolveRequest&
 }
 
 template <class Scalar>
-Solution SolveRounded(const ExactProblem& problem, const SolveRequest& request) {
-  return SolveRounded(RoundedProblem<Scalar>(problem), request);
+Solution SolveRounded(const ExactProblem& problem, const Request& request, const ExactFactors* factors) {
+  return SolveRounded(RoundedProblem<Scalar>(problem), request, factors);
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
 
 // What enclosures prove is said of the algorithm in exact arithmetic. The midpoints are judged besides.
-void JudgeMiddles(const ExactProblem& problem, const SolveRequest& request, InexactAnswer& answer) {
+void JudgeMiddles(const ExactProblem& problem, const Request& request, InexactAnswer& answer) {
   if (!answer.Solved()) return;
   const Eigen::VectorXd a = answer.a;
-  JudgeAnswer(Rounded<double>(problem), BoundOf<double>(request.options), answer);
+  JudgeAnswer(Rounded<double>(problem), ResidualOf<double>(request), answer);
   answer.a = a;
 }
 
-Solution SolveOverIntervals(const ExactProblem& problem, const SolveRequest& request) {
-  InexactAnswer answer = problem.dimension == 2
-                             ? RunEnclosed(FindMethodFacts(request.method)->name, problem, request.options,
-                                           Rung::kDouble, request.trace)
-                             : RunIntervalsInSpace(problem, {request.options.policy, request.options.tolerances,
-                                                             request.options.limits});
+Solution SolveOverIntervals(const ExactProblem& problem, const Request& request) {
+  InexactAnswer answer = problem.dimension == 2 ? RunEnclosed(FindMethodFacts(request.method)->name, problem,
+                                                              request, Rung::kDouble)
+                                                : RunIntervalsInSpace(problem, request);
   answer.arithmetic = Arithmetic::kInterval;
   JudgeMiddles(problem, request, answer);
   return {.answer = std::move(answer)};
 }
 
 // Empty where the rung leaves a sign open, or knows forces too badly to call them a solution.
-std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const SolveRequest& request, Rung rung) {
-  InexactAnswer answer =
-      RunEnclosed(FindMethodFacts(request.method)->name, problem, request.options, rung, request.trace);
+std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const Request& request, Rung rung) {
+  InexactAnswer answer = RunEnclosed(FindMethodFacts(request.method)->name, problem, request, rung);
   try {
     JudgeMiddles(problem, request, answer);
   } catch (const RangeError&) {
@@ -281,24 +281,24 @@ std::optional<InexactAnswer> SolveOnRung(const ExactProblem& problem, const Solv
   }
   answer.arithmetic = Arithmetic::kFiltered;
   answer.rung = rung;
-  const bool open = answer.outcome == Outcome::kUndecided && !request.options.limits.Stopped();
+  const bool open = answer.outcome == Outcome::kUndecided && !request.limits.Stopped();
   return open ? std::nullopt : std::optional(std::move(answer));
 }
 
 // `auto` is complete driving, and what rationals try besides where that solves nothing, or of many rows.
-Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request) {
+Solution SolveFiltered(const ExactProblem& problem, const Request& request, const ExactFactors* factors) {
   if (request.method == kAutomatic) {
-    SolveRequest complete = request;
+    Request complete = request;
     complete.method = "complete";
     Solution solution;
-    if (problem.rows() < kCellsFirst) solution = SolveFiltered(problem, complete);
+    if (problem.rows() < kCellsFirst) solution = SolveFiltered(problem, complete, factors);
     if (solution.outcome() != Outcome::kSolved) {
-      ExactAnswer answer = SolveRestingExactly(problem, request);
+      ExactAnswer answer = SolveRestingExactly(problem, request, factors);
       answer.rung = Rung::kExact;
       return {.answer = std::move(answer)};
     }
     if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
-      PreferRest(problem, request, *exact);
+      PreferRest(problem, request, factors, *exact);
     } else {
       PreferRestRounded(
           Rounded<double>(problem), [&problem] { return problem; }, request,
@@ -307,8 +307,8 @@ Solution SolveFiltered(const ExactProblem& problem, const SolveRequest& request)
     return solution;
   }
   // The published algorithm, and whatever is told step by step, is run with certified signs from the start.
-  if (request.method != "baraff" && request.trace == KeepTrace::kNo) {
-    CertifiedAnswer certified = CertifyDoubles(request.method, problem, request.options);
+  if (request.method != "baraff" && !request.trace) {
+    CertifiedAnswer certified = CertifyDoubles(request.method, problem, request);
     if (auto* answer = std::get_if<InexactAnswer>(&certified)) return {.answer = std::move(*answer)};
     if (auto* answer = std::get_if<ExactAnswer>(&certified)) return {.answer = std::move(*answer)};
   }
@@ -363,7 +363,7 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
   if (!methods.empty())
     return text +
            fmt::format("; methods with arithmetic {} there: {}", Name(arithmetic), fmt::join(methods, ", "));
-  return text + "; expected one of float, double, long-double, quad, filtered, exact";
+  return text + "; expected one of float, double, quad, filtered, exact";
 }
 
 ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem) {
@@ -379,28 +379,26 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
   return {kDouble, "the method is built for nothing better"};
 }
 
-Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request) {
+Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request) {
   RequireReading(ExactProblem{.dimension = problem.dimension, .contacts = {}, .A = {}, .b = {}}, request);
-  return SolveRounded(RoundedProblem<double>(problem), request);
+  return SolveRounded(RoundedProblem<double>(problem), request, nullptr);
 }
 
-Solution SolveIn(const ExactProblem& problem, const SolveRequest& request) {
+Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors) {
   RequireReading(problem, request);
   switch (request.arithmetic) {
     case Arithmetic::kFloat:
-      return SolveRounded<float>(problem, request);
+      return SolveRounded<float>(problem, request, factors);
     case Arithmetic::kDouble:
-      return SolveRounded<double>(problem, request);
-    case Arithmetic::kLongDouble:
-      return SolveRounded<long double>(problem, request);
+      return SolveRounded<double>(problem, request, factors);
     case Arithmetic::kQuad:
-      return SolveRounded<Quad>(problem, request);
+      return SolveRounded<Quad>(problem, request, factors);
     case Arithmetic::kInterval:
       return SolveOverIntervals(problem, request);
     case Arithmetic::kFiltered:
-      return SolveFiltered(problem, request);
+      return SolveFiltered(problem, request, factors);
     default:
-      return {.answer = SolveRestingExactly(problem, request)};
+      return {.answer = SolveRestingExactly(problem, request, factors)};
   }
 }
 

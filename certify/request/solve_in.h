@@ -4,7 +4,7 @@
 //
 //   inexact   the problem is rounded, and it is the rounded problem that is solved. Where a path method does
 //             not solve it, that is a suspicion: the same rounded problem is run again, exactly, or in space,
-//             where the published algorithm takes roots, over long double with finer tolerances. The answer is
+//             where the published algorithm takes roots, over quad with finer tolerances. The answer is
 //             then that of the second run, forces and all; `suspected` says what the first one said.
 //   exact     exact/solve.h.
 
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "certify/exact/solve.h"
+#include "corpus/record/factors.h"
 
 namespace stiction {
 
@@ -54,11 +55,12 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 // Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
 // InputError where the published algorithm in space has no such reading.
-Solution SolveIn(const ExactProblem& problem, const SolveRequest& request);
+// `factors`: of the same problem, where it has some.
+Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors = nullptr);
 
 // The same of doubles over doubles, with no rationals but where it takes them: the answer of SolveIn,
 // arithmetic kDouble, of the rationals that they are. Requires finite numbers.
-Solution SolveDoubles(const ContactProblem<double>& problem, const SolveRequest& request);
+Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request);
 
 }  // namespace stiction
 

@@ -13,24 +13,17 @@ namespace {
 
 using Sparse = SparseContactProblem<double>;
 
-InexactAnswer InPlane(const Sparse& problem, double residual, const SolveOptions& options) {
-  ProximalOptions proximal;
-  proximal.residual = residual;
-  proximal.aim = residual / 2;
-  proximal.limits = options.limits;
-  ProximalNewton<double> solver(proximal);
+InexactAnswer InPlane(const Sparse& problem, double residual, const Request& request) {
+  ProximalNewton<double> solver({.limits = request.limits, .residual = residual}, residual / 2);
   auto answer = AnswerOf<double>(solver.Run(problem));
   answer.method = "proximal";
   answer.f = solver.f();
   return answer;
 }
 
-InexactAnswer InSpace(const Sparse& problem, double residual, const SolveOptions& options) {
-  CoulombOptions coulomb;
-  coulomb.tolerances = options.tolerances;
-  coulomb.limits = options.limits;
-  coulomb.residual = residual / 2;
-  CoulombSolver<double, Sparse> solver(coulomb);
+InexactAnswer InSpace(const Sparse& problem, double residual, const Request& request) {
+  CoulombSolver<double, Sparse> solver(
+      {.tolerances = request.tolerances, .limits = request.limits, .residual = residual / 2});
   auto answer = AnswerOf<double>(solver.Run(problem));
   answer.method = "fast";
   answer.f = solver.f();
@@ -38,11 +31,11 @@ InexactAnswer InSpace(const Sparse& problem, double residual, const SolveOptions
 }
 
 // A as it is listed.
-InexactAnswer SolveListed(const SparseProblem& problem, const SolveOptions& options) {
-  const double residual = BoundOf<double>(options);
+InexactAnswer SolveListed(const SparseProblem& problem, const Request& request) {
+  const double residual = ResidualOf<double>(request);
   const Sparse rounded = InDoubles(problem);
   InexactAnswer answer =
-      problem.dimension == 2 ? InPlane(rounded, residual, options) : InSpace(rounded, residual, options);
+      problem.dimension == 2 ? InPlane(rounded, residual, request) : InSpace(rounded, residual, request);
   answer.law = FrictionLaw::kCoulomb;
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) {
     answer.f.resize(0);
@@ -64,12 +57,12 @@ std::vector<std::string_view> SparseMethods(const SparseProblem& problem) {
   return {listed};
 }
 
-InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& options, std::string_view method) {
+InexactAnswer SolveSparse(const SparseProblem& problem, const Request& request, std::string_view method) {
   const bool any = method == kAutomatic;
-  if (!problem.factors || (!any && method != kNewtonBodies)) return SolveListed(WithMatrix(problem), options);
-  InexactAnswer answer = SolveByBodies(*problem.factors, options);
-  if (answer.Solved() || !any || options.limits.Stopped()) return answer;
-  InexactAnswer other = SolveListed(WithMatrix(problem), options);
+  if (!problem.factors || (!any && method != kNewtonBodies)) return SolveListed(WithMatrix(problem), request);
+  InexactAnswer answer = SolveByBodies(*problem.factors, request);
+  if (answer.Solved() || !any || request.limits.Stopped()) return answer;
+  InexactAnswer other = SolveListed(WithMatrix(problem), request);
   const bool is_better = other.errors && (!answer.errors || other.residual() < answer.residual());
   return other.Solved() || is_better ? other : answer;
 }

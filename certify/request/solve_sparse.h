@@ -22,8 +22,8 @@ struct SparseProblem;  // corpus/record/sparse_problem.h
 // Names of methods that take the problem, those that `auto` tries first in front.
 std::vector<std::string_view> SparseMethods(const SparseProblem& problem);
 
-// By one of these methods, or `auto`. Of the options, residual and limits are read.
-InexactAnswer SolveSparse(const SparseProblem& problem, const SolveOptions& options,
+// By one of these methods, or `auto`. Of the request, residual and limits are read.
+InexactAnswer SolveSparse(const SparseProblem& problem, const Request& request,
                           std::string_view method = kAutomatic);
 
 }  // namespace stiction

@@ -56,19 +56,19 @@ void RequireFew(const ProblemFile& file) {
 }
 
 // Over doubles alone.
-Solution SolvePublishedInSpace(const ExactProblem& problem, const SolveRequest& request) {
+Solution SolvePublishedInSpace(const ExactProblem& problem, const Request& request) {
   try {
     RequireReading(problem, request);
-    return {.answer = SolveWithPath(Rounded<double>(problem), request)};
+    return {.answer = Solve(Rounded<double>(problem), request)};
   } catch (const InputError& error) {
     throw InputError(std::string("problem: ") + error.what());
   }
 }
 
 FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
-  SolveRequest request{.method = path.method, .trace = KeepTrace::kYes};
-  request.options.policy = ParsePolicy(path.policy);
-  request.options.limits = path.limits;
+  Request request{.method = path.method, .trace = true};
+  request.policy = ParsePolicy(path.policy);
+  request.limits = path.limits;
   if (file.problem.dimension == 2 || path.method != "baraff")
     return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
   FollowedRun run = Followed(path, file, SolvePublishedInSpace(file.problem, request));

@@ -14,11 +14,8 @@ namespace stiction {
 namespace {
 
 template <SpaceEngine kEngine>
-Answer<Rational> RunOnPolygons(const ExactProblem& problem, const SolveOptions& options,
-                               Trace<Rational>* trace) {
-  SpaceOptions space = SpaceOptionsOf(options, kEngine);
-  space.law = FrictionLaw::kBaraff;
-  return SolveWeakly(problem, space, trace);
+Answer<Rational> RunOnPolygons(const ExactProblem& problem, const Request& request) {
+  return SolveWeakly(problem, request, kEngine);
 }
 
 }  // namespace
@@ -36,12 +33,10 @@ std::span<const Method<double>> Methods<double>() {
   return rows;
 }
 
-template Answer<Rational> Solve(const ExactProblem&, std::string_view, const SolveOptions&, Trace<Rational>*);
+template Answer<Rational> Solve(const ExactProblem&, const Request&);
 template const Method<Rational>* FindMethod(std::string_view);
-template Answer<double> Solve(const ContactProblem<double>&, std::string_view, const SolveOptions&,
-                              Trace<double>*);
-template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const SolveOptions&,
-                                Trace<double>*);
+template Answer<double> Solve(const ContactProblem<double>&, const Request&);
+template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const Request&);
 template void JudgeAnswer(const ContactProblem<double>&, double, Answer<double>&);
 template class Reduction<double>;
 template class PublishedInSpace<double>;

@@ -28,11 +28,11 @@ Outcomes InPlane(const Limits& limits, const ExactProblem& problem) {
   return outcomes;
 }
 
-Outcomes InSpace(SolveRequest request, const ExactProblem& problem, const std::string& source) {
-  request.trace = KeepTrace::kNo;
+Outcomes InSpace(Request request, const ExactProblem& problem, const std::string& source) {
+  request.trace = false;
   Outcomes outcomes;
   for (const Policy& policy : GridOf(3)) {
-    request.options.policy = policy;
+    request.policy = policy;
     outcomes[PolicyName(policy)] = std::visit([](const auto& answer) { return OutcomeToJson(answer); },
                                               SolveAsked(problem, request, source).answer);
   }
@@ -46,11 +46,11 @@ std::map<std::string, Json> OutcomesOf(const Wanted& wanted, const ExactProblem&
   if (wanted.method != "baraff")
     throw InputError(fmt::format("all policies: found {0}method {1}, expected {0}method baraff", wanted.dashes,
                                  wanted.method));
-  const SolveRequest request = PathRequestOf(wanted, problem, source);
+  const Request request = PathRequestOf(wanted, problem, source);
   if (problem.dimension == 2 && request.arithmetic != Arithmetic::kExact)
     throw InputError(fmt::format("{}arithmetic: found {}, expected exact for all policies in the plane",
                                  wanted.dashes, wanted.arithmetic));
-  return problem.dimension == 2 ? InPlane(wanted.options.limits, problem) : InSpace(request, problem, source);
+  return problem.dimension == 2 ? InPlane(wanted.request.limits, problem) : InSpace(request, problem, source);
 }
 
 }  // namespace stiction

@@ -77,7 +77,7 @@ int RankOf(const ExactProblem& problem) {
 Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
   Wanted wanted;
   wanted.method = "baraff";
-  wanted.options.limits = o.limits;
+  wanted.request.limits = o.limits;
   const std::map<std::string, Json> ends = OutcomesOf(wanted, problem, o.file);
   std::vector<std::string> looping;
   Json outcomes = Json::object();
@@ -109,16 +109,15 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
 Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
   Wanted wanted;
   wanted.method = method;
-  wanted.options.limits = o.limits;
-  SolveRequest request = RequestOf(wanted, file.problem, o.file);
+  wanted.request.limits = o.limits;
+  Request request = RequestOf(wanted, file.problem, o.file);
   const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
-  request.factors = factors ? &*factors : nullptr;
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
   const auto add = [&run](const auto& answer) {
     run.update(EndToJson(answer));
     if (answer.moves_elsewhere) run["unique_accelerations"] = false;
   };
-  std::visit(add, SolveAsked(file.problem, request, o.file).answer);
+  std::visit(add, SolveAsked(file.problem, request, o.file, factors ? &*factors : nullptr).answer);
   return run;
 }
 

@@ -13,7 +13,7 @@ Json MethodsToJson() {
     Json row = {{"name", facts.name},    {"title", facts.title},    {"source", facts.source},
                 {"ends", facts.ends},    {"path", facts.HasPath()}, {"plane", Json::array()},
                 {"space", Json::array()}};
-    for (const Arithmetic arithmetic : kShownArithmetics) {
+    for (const Arithmetic arithmetic : kArithmetics) {
       if (facts.IsBuilt(2, arithmetic)) row["plane"].push_back(Name(arithmetic));
       if (facts.IsBuilt(3, arithmetic)) row["space"].push_back(Name(arithmetic));
     }

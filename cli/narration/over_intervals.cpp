@@ -8,12 +8,11 @@
 
 namespace stiction {
 
-std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Request& request,
                                            Outcome outcome) {
   const bool in_space = problem.dimension == 3 && request.method == "baraff";
-  if (!in_space || !PublishedReadsInSpace(request.options.policy) || outcome == Outcome::kSolved)
-    return std::nullopt;
-  return RunIntervalsInSpace(problem, {request.options.policy, {}, request.options.limits});
+  if (!in_space || !PublishedReadsInSpace(request.policy) || outcome == Outcome::kSolved) return std::nullopt;
+  return RunIntervalsInSpace(problem, {request.policy, {}, request.limits});
 }
 
 std::string OverIntervalsText(const InexactAnswer& answer) {

@@ -14,7 +14,7 @@ namespace stiction {
 
 // What intervals say of a run of the published algorithm in space that does not end solved over floating-point
 // numbers; empty of any other.
-std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const SolveRequest& request,
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Request& request,
                                            Outcome outcome);
 
 // "over intervals, proved: cycle: ..."

@@ -137,8 +137,8 @@ Json NotTried(const std::string& method, const RangeError& error) {
 
 // What solves over doubles, judged on the problem as it is given: its rounding is the method's, too.
 Json RunInDoubles(const ExactProblem& problem, const std::string& method, const Limits& limits) try {
-  const SolveRequest request{
-      .method = method, .arithmetic = Arithmetic::kDouble, .options = {.limits = limits}, .confirm = false};
+  const Request request{
+      .method = method, .arithmetic = Arithmetic::kDouble, .limits = limits, .confirm = false};
   const Stopwatch watch(CLOCK_MONOTONIC);
   const InexactAnswer answer = std::get<InexactAnswer>(SolveIn(problem, request).answer);
   Json run = RunToJson(answer, watch);
@@ -152,7 +152,7 @@ Json RunInDoubles(const ExactProblem& problem, const std::string& method, const 
 
 // What `solve` does by default.
 Json RunByDefault(const ExactProblem& problem, const Limits& limits) try {
-  SolveRequest request{.options = {.limits = limits}};
+  Request request{.limits = limits};
   request.arithmetic = UsualArithmetic(request.method, problem).arithmetic;
   const Stopwatch watch(CLOCK_MONOTONIC);
   const Solution solution = SolveIn(problem, request);
@@ -308,11 +308,8 @@ Json PlanarRuns(const ExactProblem& problem, const SurveyScope& o) {
 
 // A certificate of Coulomb's law up to a bound.
 Json CertifyCoulomb(const ExactProblem& problem, const Limits& limits) try {
-  SpaceOptions options;
-  options.law = FrictionLaw::kCoulomb;
-  options.limits = limits;
   const Stopwatch watch(CLOCK_MONOTONIC);
-  const Answer<Rational> solution = SolveInSpace(problem, options);
+  const Answer<Rational> solution = SolveInSpace(problem, {.limits = limits});
   Json run = {{"method", "complete"}, {"arithmetic", "exact"}, {"outcome", Name(solution.outcome)}};
   run["seconds"] = watch.Seconds();
   if (!solution.reason.empty()) run["reason"] = solution.reason;

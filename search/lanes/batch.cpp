@@ -77,20 +77,20 @@ std::vector<InstructionSet> InstructionSets() {
   return sets;
 }
 
-bool IsBatched(const PublishedOptions& options) {
-  return options.policy == Policy{} && options.limits.stop == nullptr && options.limits.drives >= kLeastLimit &&
-         options.limits.pivots >= kLeastLimit;
+bool IsBatched(const Request& request) {
+  return request.policy == Policy{} && request.limits.stop == nullptr && request.limits.drives >= kLeastLimit &&
+         request.limits.pivots >= kLeastLimit;
 }
 
 bool IsDrawnInLanes(GeneratorId id) { return FamilyOf(id).has_value(); }
 
 template <int Rows>
-Batch<Rows>::Batch(InstructionSet set, const PublishedOptions& options)
+Batch<Rows>::Batch(InstructionSet set, const Request& request)
     : code_(CodeOf<Rows>(set)),
-      tolerances_{Tolerance(options.tolerances.acceleration), Tolerance(options.tolerances.force),
-                  Tolerance(options.tolerances.pivot)},
+      tolerances_{Tolerance(request.tolerances.acceleration), Tolerance(request.tolerances.force),
+                  Tolerance(request.tolerances.pivot)},
       block_{} {
-  STICTION_CHECK(IsBatched(options), "options that can be batched");
+  STICTION_CHECK(IsBatched(request), "a request that can be batched");
 }
 
 template <int Rows>

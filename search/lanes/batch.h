@@ -19,13 +19,13 @@
 #include "search/generators/generators.h"
 #include "search/lanes/block.h"
 #include "search/lanes/instructions.h"
-#include "solver/problem/options.h"
+#include "solver/problem/request.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
 
-// Whether runs under these options can be batched at all.
-bool IsBatched(const PublishedOptions& options);
+// Whether runs of this request can be batched at all.
+bool IsBatched(const Request& request);
 // Whether there are lanes for so many rows.
 constexpr bool HasLanes(int rows) { return rows == 4 || rows == 6 || rows == 8; }
 // Whether lanes can draw problems of a generator themselves.
@@ -36,8 +36,8 @@ class Batch {
  public:
   using Problem = ContactProblem<double, Rows>;
 
-  // Requires one of InstructionSets() other than kNone, and IsBatched(options).
-  Batch(InstructionSet set, const PublishedOptions& options);
+  // Requires one of InstructionSets() other than kNone, and IsBatched(request).
+  Batch(InstructionSet set, const Request& request);
 
   // Makes `problem` number i of the block, and back: static contacts.
   void Put(int i, const Problem& problem, const Drawn& drawn);

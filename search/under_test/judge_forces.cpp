@@ -283,7 +283,7 @@ std::optional<ForceVector> SolutionWithin(const ExactProblem& posed, const std::
     doubled.A(rows + k, tangents[k]) = -1;
     doubled.b[rows + k] = 2 * limits[tangents[k]];
   }
-  const ExactAnswer answer = Solve(doubled, "lemke", {});
+  const ExactAnswer answer = Solve(doubled, {.method = "lemke"});
   if (!answer.Solved()) return std::nullopt;
   const ForceVector f = answer.f.head(rows) - shift;
   if (!HoldsWithin(f, Accelerations(posed, f), limits, is_normal)) return std::nullopt;
@@ -300,13 +300,13 @@ std::optional<ForceVector> SolutionUnder(SolverLaw law, const ContactProblem<dou
   }
   if (law == SolverLaw::kFrictionless) exact.dimension = 2;  // normals are the same in space
   if (exact.dimension != 2) return std::nullopt;
-  const ExactAnswer answer = Solve(exact, "complete", {});
+  const ExactAnswer answer = Solve(exact, {.method = "complete"});
   if (!answer.Solved() || FindViolation(exact, answer.f)) return std::nullopt;
   return answer.f;
 }
 
 std::optional<ForceVector> NearSolution(const ContactProblem<double>& posed) {
-  const auto answer = Solve(posed, kAutomatic, {});
+  const auto answer = Solve(posed);
   if (!answer.Solved()) return std::nullopt;
   return answer.f.unaryExpr([](double x) { return Rational(x); });
 }

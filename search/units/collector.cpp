@@ -60,10 +60,10 @@ void Collector::CountExistence(const Answer<Rational>& complete, bool wrong) {
   ExistenceTally& tally = result_.record.existence[task_.contacts];
   ++tally.problems;
   tally.solved += complete.Solved() && !wrong;
-  tally.pieces += ValueOf(complete.counters, "pieces");
-  tally.with_folds += ValueOf(complete.counters, "folds") > 0;
-  tally.with_descents += ValueOf(complete.counters, "descents") > 0;
-  tally.with_ties += ValueOf(complete.counters, "ties") > 0;
+  tally.pieces += complete.counters[Counter::kPieces];
+  tally.with_folds += complete.counters[Counter::kFolds] > 0;
+  tally.with_descents += complete.counters[Counter::kDescents] > 0;
+  tally.with_ties += complete.counters[Counter::kTies] > 0;
 }
 
 void Collector::CountModes(AgreementTally& tally, const ExactProblem& problem, const Enumeration& modes) {

@@ -28,7 +28,7 @@ Feasibility AskIpopt(const ExactProblem& problem) {
 // A row of the table of methods.
 ExactMethod ByName(const char* method) {
   return [method](const ExactProblem& problem, const Limits& limits) {
-    return Solve(problem, method, {.limits = limits});
+    return Solve(problem, {.method = method, .limits = limits});
   };
 }
 
@@ -45,7 +45,7 @@ ExactMethods::ExactMethods()
       ipopt(AskIpopt),
       published_in_space(RunIntervalsInSpace),
       complete_in_space([](const ExactProblem& problem, const Limits& limits) {
-        return SolveInSpace(problem, {.limits = limits});
+        return SolveInSpace(problem, {.law = FrictionLaw::kBaraff, .limits = limits});
       }) {}
 
 }  // namespace stiction

@@ -19,7 +19,7 @@ namespace stiction {
 struct Enumeration;  // certify/exact/enumerate.h
 struct ExactRun;     // certify/exact/exact.h
 struct OnRung;       // certify/exact/filtered.h
-struct PublishedOptions;
+struct Request;
 struct Rungs;  // certify/exact/filtered.h
 
 // What Ipopt makes of a problem. It proposes, and rationals judge, so that a solution is one; its iterations
@@ -35,14 +35,14 @@ using ExactMethod = std::function<Answer<Rational>(const ExactProblem&, const Li
 struct ExactMethods {
   ExactMethods();  // those of certify
 
-  std::function<ExactRun(const ExactProblem&, const PublishedOptions&)> published;
-  std::function<OnRung(const ExactProblem&, const PublishedOptions&, const Rungs&)> filtered;
+  std::function<ExactRun(const ExactProblem&, const Request&)> published;
+  std::function<OnRung(const ExactProblem&, const Request&, const Rungs&)> filtered;
   ExactMethod complete, complete_filtered, lemke;
   std::function<Enumeration(const ExactProblem&)> modes;
   std::function<std::optional<bool>(const ExactProblem&)> is_safe;
   std::function<Feasibility(const ExactProblem&)> ipopt;
   // In space: the published algorithm over intervals, complete driving on polygons until (21), (22) hold.
-  std::function<Answer<double>(const ExactProblem&, const PublishedOptions&)> published_in_space;
+  std::function<Answer<double>(const ExactProblem&, const Request&)> published_in_space;
   ExactMethod complete_in_space;
 };
 

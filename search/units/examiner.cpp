@@ -82,7 +82,7 @@ ExactRun Examiner::RunExactly(const ExactProblem& problem, std::size_t policy) {
   return methods_.published(problem, OptionsOf(policy));
 }
 
-PublishedOptions Examiner::OptionsOf(std::size_t policy) const {
+Request Examiner::OptionsOf(std::size_t policy) const {
   return {campaign_.policies[policy], {}, campaign_.limits};
 }
 
@@ -118,8 +118,9 @@ Outcome Examiner::Decide(const Place& place, const ExactProblem& problem, const 
 void Examiner::Confirm(const Place& place, const ExactProblem& problem, const OnRung& filtered) {
   const Verdict& verdict = filtered.verdict;
   const Spending spending(collector_.meter(), &ProcessorTime::compared);
-  const SolveOptions options = {.policy = campaign_.policies[place.policy], .limits = campaign_.limits};
-  const InexactAnswer run = RunEnclosed("baraff", problem, options, filtered.rung, KeepTrace::kYes);
+  const Request request = {
+      .policy = campaign_.policies[place.policy], .limits = campaign_.limits, .trace = true};
+  const InexactAnswer run = RunEnclosed("baraff", problem, request, filtered.rung);
   if (!FindUnsolved(place, verdict, run.pivots, problem)) return;
   // Records have an entry of what is compared beyond double-doubles, as where rationals decide.
   if (filtered.rung == Rung::kExact) collector_.agreement();

@@ -50,7 +50,7 @@ Json FactsInSpace(const ExactProblem& problem, const InexactAnswer& answer, cons
           {"outcome", Name(answer.outcome)},
           {"start", answer.start},
           {"period", answer.period},
-          {"steps", ValueOf(answer.counters, "steps")},
+          {"steps", answer.counters[Counter::kSteps]},
           {"grid", Json::object()},
           {"existence", {{"claim", existence.empty() ? Json() : Json("solution-exists")}}}};
 }
@@ -82,12 +82,12 @@ Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source
   const bool decided = !existence.certificate.is_null();
   Decided result;
   if (decided) result.certificate = Checked(existence.certificate, source);
-  const ExactAnswer complete = Solve(problem, "complete", {.limits = limits});
+  const ExactAnswer complete = Solve(problem, {.method = "complete", .limits = limits});
   result.facts = {{"claim", decided ? existence.certificate.at("claim") : Json()},
                   {"method", existence.method},
-                  {"pieces", ValueOf(complete.counters, "pieces")},
-                  {"folds", ValueOf(complete.counters, "folds")},
-                  {"descents", ValueOf(complete.counters, "descents")}};
+                  {"pieces", complete.counters[Counter::kPieces]},
+                  {"folds", complete.counters[Counter::kFolds]},
+                  {"descents", complete.counters[Counter::kDescents]}};
   return result;
 }
 
@@ -198,10 +198,9 @@ std::string ExistenceInSpace(const ExactProblem& problem, const std::string& sou
 }
 
 // Empty where it has none.
-std::string LoopInSpaceOf(const ExactProblem& problem, const PublishedOptions& options,
-                          const std::string& source) {
+std::string LoopInSpaceOf(const ExactProblem& problem, const Request& request, const std::string& source) {
   if (!PublishedHandlesInSpace(problem)) return {};
-  const Json certificate = CycleCertificate(problem, {options.policy}, options.limits);
+  const Json certificate = CycleCertificate(problem, {request.policy}, request.limits);
   return certificate.is_null() ? std::string() : Checked(certificate, source);
 }
 
@@ -211,30 +210,30 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
                                      const std::function<bool()>& cancelled, const ExactMethods& methods) {
   Finding finished = finding;
   finished.done = true;
-  const PublishedOptions options{ParsePolicy(finding.policy), {}, limits};
-  const InexactAnswer answer = methods.published_in_space(problem, options);
+  const Request request{.policy = ParsePolicy(finding.policy), .limits = limits};
+  const InexactAnswer answer = methods.published_in_space(problem, request);
   Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   finished.existence = ExistenceInSpace(problem, finding.signature, limits);
   const bool loops = answer.outcome == Outcome::kCycle;
-  if (loops) finished.certificate = LoopInSpaceOf(problem, options, finding.signature);
+  if (loops) finished.certificate = LoopInSpaceOf(problem, request, finding.signature);
   facts["found"] = FactsInSpace(problem, answer, finished.existence);
   const bool minimize =
       !answer.Solved() && answer.outcome != Outcome::kUndecided && finding.kind != kDisagreementOfMethods;
   if (minimize) {
     MinimizeOptions what;
     what.keep = answer.outcome;
-    what.policies = {options.policy};
+    what.policies = {request.policy};
     what.period = answer.period;
     what.limits = limits;
     what.cancelled = cancelled;
     const ExactProblem small = Minimize(problem, what).problem;
-    finished.minimized = JsonText(ToJson(Describe(small, finding, options.policy, false, false)));
-    if (loops) finished.minimized_certificate = LoopInSpaceOf(small, options, finding.signature);
+    finished.minimized = JsonText(ToJson(Describe(small, finding, request.policy, false, false)));
+    if (loops) finished.minimized_certificate = LoopInSpaceOf(small, request, finding.signature);
     if (finished.minimized_certificate.empty())
       finished.certificate.clear();  // it would speak of another problem
     finished.minimized_existence = ExistenceInSpace(small, finding.signature, limits);
     facts["minimized"] =
-        FactsInSpace(small, methods.published_in_space(small, options), finished.minimized_existence);
+        FactsInSpace(small, methods.published_in_space(small, request), finished.minimized_existence);
   }
   finished.facts = JsonText(facts);
   return cancelled() ? std::nullopt : std::optional(finished);

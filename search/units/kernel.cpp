@@ -86,7 +86,7 @@ class PlanarKernel : public Kernel {
 
   PlanarKernel(const Campaign& campaign, const UnitSolvers& solvers) : campaign_(campaign), solvers_(solvers) {
     for (const Policy& policy : campaign.policies) {
-      algorithms_.emplace_back(PublishedOptions{policy, {}, campaign.limits});
+      algorithms_.emplace_back(Request{.policy = policy, .limits = campaign.limits});
     }
   }
 
@@ -205,7 +205,7 @@ class BatchedKernel final : public PlanarKernel<Rows> {
  private:
   using PlanarKernel<Rows>::campaign_, PlanarKernel<Rows>::problem_, PlanarKernel<Rows>::drawn_;
 
-  static PublishedOptions OptionsOf(const Campaign& campaign) {
+  static Request OptionsOf(const Campaign& campaign) {
     return {campaign.policies.front(), {}, campaign.limits};
   }
 
@@ -260,8 +260,8 @@ class SpaceKernel final : public Kernel {
 
  private:
   void Try(std::int64_t index, std::size_t policy, bool audit, Collector& collector, Examiner& examiner) {
-    algorithm_.options() = {campaign_.policies[policy], {}, campaign_.limits};
-    const PublishedSpaceVerdict end = algorithm_.Run(problem_);
+    algorithm_.request() = {.policy = campaign_.policies[policy], .limits = campaign_.limits};
+    const Verdict end = algorithm_.Run(problem_);
     Verdict verdict = {end.outcome, end.reason, end.statistics, end.start, end.period};
     ContactProblem<double>::Vector f = algorithm_.f();
     if (solvers_.distort) solvers_.distort(verdict, {f.data(), static_cast<std::size_t>(f.size())});

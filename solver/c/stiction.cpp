@@ -232,7 +232,7 @@ stiction_options Defaults() {
   options.size = sizeof options;
   options.warm = 1;
   options.residual = kSolvedResidual<double>;
-  options.points = BodyNewtonOptions().points;
+  options.points = BodyNewton<double>::kPoints;
   options.dense_rows = 150;
   return options;
 }
@@ -313,17 +313,18 @@ class Solving {
 
   // `factors`: the problem, in factors.
   void ByNewton(BodyNewton<double>& newton, const Factored& factors, const Vector* start) {
-    BodyNewtonOptions options;
-    options.residual = options_.residual / 2;  // the gate adds what rounding may hide
-    options.aim = std::min(options.aim, options.residual);
-    options.noise = options_.noise;
-    options.points = options_.points;
+    using Newton = BodyNewton<double>;
+    newton.request() = {.residual = options_.residual / 2,  // the gate adds what rounding may hide
+                        .noise = options_.noise};
+    newton.aim = std::min(Newton::kAim, options_.residual / 2);
+    newton.points = options_.points;
+    newton.warm_eps = Newton::kWarmEps;
+    newton.failures = Newton::kFailures;
     if (start != nullptr) {
       const double error = LenientErrorOf(factors, *start);
-      options.warm_eps = std::clamp(kEpsPerError * error, options.warm_eps, kMostEps);
-      options.failures = kFailures + problem_.rows() / kRowsPerFailure;
+      newton.warm_eps = std::clamp(kEpsPerError * error, Newton::kWarmEps, kMostEps);
+      newton.failures = kFailures + problem_.rows() / kRowsPerFailure;
     }
-    newton.options() = options;
     newton.Run(factors, start);
     Offer(newton.f(), "newton", start != nullptr);
   }
@@ -337,9 +338,7 @@ class Solving {
   }
 
   void ByDenseMethods(const Dense& problem) {
-    SolveOptions options;
-    options.residual = options_.residual;
-    const Answer<double> answer = Solve(problem, kAutomatic, options);
+    const Answer<double> answer = Solve(problem, {.residual = options_.residual});
     Offer(answer.f, answer.method, false);
   }
 

@@ -55,42 +55,14 @@
 
 namespace stiction {
 
-// limits.pivots bounds the pieces, limits.stop ends a run; the other limits are not read: the cells bound the
-// stages, and Cramer's rule the bits. `residual` is the largest error (problem/errors.h) of an inexact answer
-// that is called solved.
-struct CompleteOptions {
-  Tolerances tolerances;
-  Limits limits;
-  double residual = 1e-8;
-  int update_from = kUpdateFrom;
+// Counts of a run.
+inline const Counters kCompleteCounters = {Counter::kPieces, Counter::kFolds, Counter::kDescents,
+                                           Counter::kTies, Counter::kStages};
 
-  bool operator==(const CompleteOptions&) const = default;
-};
-
-// Counters of one run.
-struct CompleteStatistics {
-  std::int64_t pieces = 0;
-  std::int64_t folds = 0;
-  std::int64_t descents = 0;
-  std::int64_t ties = 0;
-  std::int64_t stages = 0;
-
-  bool operator==(const CompleteStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, CompleteStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("pieces", "linear pieces of the path", s.pieces);
-  visit("folds", "points of a stage where the driven force turns", s.folds);
-  visit("descents", "returns of a driven force to zero", s.descents);
-  visit("ties", "times the perturbation of b was consulted", s.ties);
-  visit("stages", "stages entered", s.stages);
-}
-
-using CompleteVerdict = RunEnd<CompleteStatistics>;  // solved, ray, limit, undecided
-
+// Of a request tolerances, limits.pivots, which bounds the pieces, and limits.stop are read: the cells bound
+// the stages, and Cramer's rule the bits. `residual` is the largest error (problem/errors.h) of an inexact
+// answer that is called solved.
+//
 // Reusable. Memory is kept between runs.
 template <class Scalar, int Rows = Eigen::Dynamic>
 class CompleteDriving {
@@ -99,9 +71,11 @@ class CompleteDriving {
   using Vector = typename Problem::Vector;
   using Polygons = std::vector<FrictionPolygon<Scalar>>;
 
-  explicit CompleteDriving(const CompleteOptions& options = {}) : options_(options) {}
+  explicit CompleteDriving(const Request& request = {}) : request_(request) {}
 
-  CompleteOptions& options() { return options_; }
+  Request& request() { return request_; }
+  // Unknowns from which on direction systems are updated (linear/updated_system.h).
+  void UpdateFrom(int unknowns) { update_from_ = unknowns; }
 
   // Runs from f = 0. Requires a planar problem of frictionless and static contacts (PublishedHandles).
   // Errors: an exact run that breaks the theory is an InternalError.
@@ -109,11 +83,11 @@ class CompleteDriving {
   // A pivot of the trace is a linear piece: `drive` counts stages; in a friction stage the driven contact is in
   // a cell of its word, in a normal's stage in none; no variable limits a ray (-1). Sets are those of the
   // plane, and there a stage that ends at its start is the driven variable going from none to none.
-  CompleteVerdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
+  RunEnd<> Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
 
   // Requires a problem of dimension 3, and a polygon per contact, read for static contacts with mu > 0 only.
-  CompleteVerdict Run(const Problem& problem, const Polygons& polygons,
-                      Trace<Scalar>* trace = nullptr) requires(Rows == Eigen::Dynamic);
+  RunEnd<> Run(const Problem& problem, const Polygons& polygons,
+               Trace<Scalar>* trace = nullptr) requires(Rows == Eigen::Dynamic);
 
   // Over enclosures: as PublishedAlgorithm::KnowDependentRows.
   void KnowDependentRows(DependentRows* rows) { dependent_rows_ = rows; }
@@ -148,7 +122,7 @@ class CompleteDriving {
     Scalar s = Scalar(0);
   };
 
-  CompleteVerdict Follow(const Problem& problem, const Polygons* polygons, Trace<Scalar>* trace);
+  RunEnd<> Follow(const Problem& problem, const Polygons* polygons, Trace<Scalar>* trace);
   void Start(const Problem& problem, const Polygons* polygons, Trace<Scalar>* trace);
   void HoldBilateral();
   bool Ended() const { return ended_; }
@@ -228,7 +202,8 @@ class CompleteDriving {
   void AddGradient(const Facet& facet, const Scalar& factor, Row& gradient) const;
   int FirstSign(const Row& gradient, bool of_acceleration) const;
 
-  CompleteOptions options_;
+  Request request_;
+  int update_from_ = kUpdateFrom;
   const Problem* problem_ = nullptr;
   const Polygons* polygons_ = nullptr;  // null in the plane
   Trace<Scalar>* trace_ = nullptr;
@@ -243,7 +218,7 @@ class CompleteDriving {
   CellWord word_;
   ListedUnknowns<Scalar, Rows> unknowns_;
 
-  CompleteVerdict verdict_;
+  RunEnd<> verdict_;
   std::int64_t most_pieces_ = 0;
   bool ended_ = false;
   bool up_ = true;

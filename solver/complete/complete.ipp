@@ -20,19 +20,19 @@ namespace stiction {
 // ---- The run: from node to node --------------------------------------------------------------
 
 template <class Scalar, int Rows>
-CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
+RunEnd<> CompleteDriving<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
   return Follow(problem, nullptr, trace);
 }
 
 template <class Scalar, int Rows>
-CompleteVerdict CompleteDriving<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
-                                                   Trace<Scalar>* trace) requires(Rows == Eigen::Dynamic) {
+RunEnd<> CompleteDriving<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
+                                            Trace<Scalar>* trace) requires(Rows == Eigen::Dynamic) {
   return Follow(problem, &polygons, trace);
 }
 
 template <class Scalar, int Rows>
-CompleteVerdict CompleteDriving<Scalar, Rows>::Follow(const Problem& problem, const Polygons* polygons,
-                                                      Trace<Scalar>* trace) {
+RunEnd<> CompleteDriving<Scalar, Rows>::Follow(const Problem& problem, const Polygons* polygons,
+                                               Trace<Scalar>* trace) {
   Start(problem, polygons, trace);
   if (!Ended()) HoldBilateral();
   while (!Ended()) {
@@ -56,14 +56,14 @@ void CompleteDriving<Scalar, Rows>::Start(const Problem& problem, const Polygons
     layout_.Assign(problem.contacts, problem.dimension);
     f_.resize(problem.rows());
   }
-  scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Start(problem, options_.update_from);
+  scale_ = MakeScale(problem, request_.tolerances);
+  direction_.Start(problem, update_from_);
   for (int row = 0; row < problem.rows(); ++row) f_[row] = Scalar(0);
   a_ = problem.b;
   rho_ = Scalar(0);
   word_.assign(layout_.ContactCount(), {});
   unknowns_.Start(problem);
-  verdict_ = {};
+  verdict_ = {.statistics = kCompleteCounters};
   most_pieces_ = MostPieces();
   ended_ = false;
   up_ = true;
@@ -224,7 +224,7 @@ void CompleteDriving<Scalar, Rows>::FinishDriven(LawCell cell) {
 
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::TraceStage(Facet entry) {
-  ++verdict_.statistics.stages;
+  ++verdict_.statistics[Counter::kStages];
   PathTurn turn = up_ ? PathTurn::kNone : PathTurn::kDescent;
   int last_turn = 0;
   while (true) {
@@ -234,9 +234,9 @@ void CompleteDriving<Scalar, Rows>::TraceStage(Facet entry) {
     if (Sign(Value(entry, direction_.df(), direction_.da(), rate_)) <= 0) {
       return Impossible("the direction leads out of the cell");
     }
-    ++verdict_.statistics.pieces;
+    ++verdict_.statistics[Counter::kPieces];
     if (determinant * last_turn < 0) {
-      ++verdict_.statistics.folds;
+      ++verdict_.statistics[Counter::kFolds];
       turn = PathTurn::kFold;
     }
     if (determinant != 0) last_turn = determinant;
@@ -322,7 +322,7 @@ int CompleteDriving<Scalar, Rows>::Nearest(const Facet& entry) {
   for (int i = 0; i < count; ++i) {
     if (i == nearest || candidates_[i].s > reach) continue;
     if (!least) {
-      ++verdict_.statistics.ties;
+      ++verdict_.statistics[Counter::kTies];
       least = Gradient(entry, candidates_[nearest].facet) / candidates_[nearest].rate;
     }
     const Row parts = Gradient(entry, candidates_[i].facet) / candidates_[i].rate;
@@ -389,7 +389,7 @@ void CompleteDriving<Scalar, Rows>::SnapToCells() {
 template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::EndStage(const Facet& reached) {
   up_ = reached.beyond == Beyond::kEnd;
-  verdict_.statistics.descents += !up_;
+  verdict_.statistics[Counter::kDescents] += !up_;
   if (!up_) return;
   if (stage_ == Stage::kNormal && HasFriction(driven_)) return EnterFriction({Law::kCorner, 0}, Scalar(0));
   FinishDriven(reached.cell);
@@ -417,11 +417,11 @@ auto CompleteDriving<Scalar, Rows>::Cross(const Facet& reached) -> Facet {
 
 template <class Scalar, int Rows>
 bool CompleteDriving<Scalar, Rows>::BudgetSpent() {
-  if (verdict_.statistics.pieces >= most_pieces_) {
+  if (verdict_.statistics[Counter::kPieces] >= most_pieces_) {
     Impossible("more pieces than cells");
-  } else if (verdict_.statistics.pieces >= options_.limits.pivots) {
+  } else if (verdict_.statistics[Counter::kPieces] >= request_.limits.pivots) {
     End(Outcome::kLimit, "pieces");
-  } else if (options_.limits.Stopped()) {
+  } else if (request_.limits.Stopped()) {
     End(Outcome::kUndecided, kStopped);
   } else if (!IsFinite()) {
     End(Outcome::kUndecided, "a number is not finite");

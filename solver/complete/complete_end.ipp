@@ -23,7 +23,7 @@ void CompleteDriving<Scalar, Rows>::Solved() {
   if constexpr (!kIsExact<Scalar>) {
     if (!IsFinite()) return End(Outcome::kUndecided, "a number is not finite");
     const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-    const Scalar tolerance = std::max(Scalar(options_.residual), least);
+    const Scalar tolerance = std::max(Scalar(ResidualOf<Scalar>(request_)), least);
     if (!InSpace() || !SolveLastWord(tolerance)) ComputeAccelerations();
     if (!(Residual() <= tolerance)) return End(Outcome::kUndecided, "the residual is above the tolerance");
   }
@@ -77,7 +77,7 @@ template <class Scalar, int Rows>
 void CompleteDriving<Scalar, Rows>::Record(int determinant, PathTurn turn) {
   if (trace_ == nullptr || !trace_->keep_pivots) return;
   Pivot<Scalar>& pivot = trace_->pivots.emplace_back();
-  pivot.drive = static_cast<int>(verdict_.statistics.stages);
+  pivot.drive = static_cast<int>(verdict_.statistics[Counter::kStages]);
   pivot.driven = RowOf(driven_) + (stage_ == Stage::kFriction);
   pivot.df = direction_.df();
   pivot.da = direction_.da();

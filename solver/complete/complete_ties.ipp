@@ -18,7 +18,7 @@ int CompleteDriving<Scalar, Rows>::SignAt(const Facet& at, const Facet& of) {
   const bool of_acceleration = of.OfAcceleration();
   int sign = Sign(Present(of), of_acceleration ? scale_.acceleration : scale_.force);
   if (sign != 0) return sign;
-  ++verdict_.statistics.ties;
+  ++verdict_.statistics[Counter::kTies];
   sign = FirstSign(Gradient(at, of), of_acceleration);
   if (sign == 0) Impossible("a sign");
   return sign;

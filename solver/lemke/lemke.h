@@ -81,14 +81,6 @@ Scalar Grade() {
 // Why an answer over inexact scalars is undecided whose path came to its end: f() and a() are where it ended.
 inline constexpr std::string_view kImprecise = "errors of the answer";
 
-struct LemkeOptions {
-  Cover cover = Cover::kOnes;
-  Tolerances tolerances;
-  Limits limits;  // pivots and bits
-
-  bool operator==(const LemkeOptions&) const = default;
-};
-
 // Reusable: memory is kept between runs.
 template <class Scalar, int Rows = Eigen::Dynamic>
 class LemkeAlgorithm {
@@ -97,20 +89,21 @@ class LemkeAlgorithm {
   using Vector = typename Problem::Vector;
   using Polygons = std::vector<FrictionPolygon<Scalar>>;
 
-  explicit LemkeAlgorithm(const LemkeOptions& options = {}) : options_(options) {}
+  explicit LemkeAlgorithm(const Request& request = {}, Cover cover = Cover::kOnes)
+      : request_(request), kind_of_cover_(cover) {}
 
-  LemkeOptions& options() { return options_; }
+  Request& request() { return request_; }
 
   // Requires PublishedHandles(problem): planar, frictionless and static contacts. Outcome: solved, ray, limit
   // (reason "pivots" or "bits") or undecided. Counts `pivots` only; the first, which brings z0 in, counts.
   // With `trace`, every pivot is recorded: `driven` is the row of the contact's normal or (first) friction that
   // the entering variable belongs to, `limiting` that of the leaving one; -1 for z0, and where a ray ends the
   // run, which has no leaving variable. s, df, da are told per unit of the entering variable, in N or m/s^2.
-  Verdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
+  RunEnd<> Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
 
   // The same in space. Requires dimension 3, frictionless and static contacts, and a polygon per contact, with
   // zero inside.
-  Verdict Run(const Problem& problem, const Polygons& polygons, Trace<Scalar>* trace = nullptr);
+  RunEnd<> Run(const Problem& problem, const Polygons& polygons, Trace<Scalar>* trace = nullptr);
 
   // Of a solved run: forces, and accelerations a = A f + b.
   const Vector& f() const { return f_; }
@@ -133,7 +126,7 @@ class LemkeAlgorithm {
     int corner = 0;
   };
 
-  Verdict Run();
+  RunEnd<> Run();
   void Start();
   void SetUnits();
   void ListComponents();
@@ -181,7 +174,8 @@ class LemkeAlgorithm {
   void RecordStep(int row, int entering);
   void RecordPoint(int row);
 
-  LemkeOptions options_;
+  Request request_;
+  Cover kind_of_cover_;
   const Problem* problem_ = nullptr;
   const Polygons* polygons_ = nullptr;  // in space
   Trace<Scalar>* trace_ = nullptr;      // where pivots are kept
@@ -199,7 +193,7 @@ class LemkeAlgorithm {
   Scalar unit_A_ = Scalar(1), unit_b_ = Scalar(1);
   Scalar pivot_tolerance_ = Scalar(0), tie_tolerance_ = Scalar(0), residual_tolerance_ = Scalar(0);
   Vector f_, a_, ray_;
-  Verdict verdict_;
+  RunEnd<> verdict_;
 };
 
 }  // namespace stiction

@@ -17,7 +17,7 @@
 namespace stiction {
 
 template <class Scalar, int Rows>
-Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
+RunEnd<> LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>* trace) {
   problem_ = &problem;
   polygons_ = nullptr;
   trace_ = trace;
@@ -25,8 +25,8 @@ Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, Trace<Scalar>*
 }
 
 template <class Scalar, int Rows>
-Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
-                                          Trace<Scalar>* trace) {
+RunEnd<> LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, const Polygons& polygons,
+                                           Trace<Scalar>* trace) {
   STICTION_CHECK(polygons.size() == problem.contacts.size(), "a polygon per contact");
   problem_ = &problem;
   polygons_ = &polygons;
@@ -35,7 +35,7 @@ Verdict LemkeAlgorithm<Scalar, Rows>::Run(const Problem& problem, const Polygons
 }
 
 template <class Scalar, int Rows>
-Verdict LemkeAlgorithm<Scalar, Rows>::Run() {
+RunEnd<> LemkeAlgorithm<Scalar, Rows>::Run() {
   Start();
   verdict_.outcome = IsNonnegative() ? Outcome::kSolved : Follow();
   if (verdict_.outcome == Outcome::kSolved) {
@@ -50,7 +50,7 @@ Verdict LemkeAlgorithm<Scalar, Rows>::Run() {
 template <class Scalar, int Rows>
 void LemkeAlgorithm<Scalar, Rows>::Start() {
   const Problem& problem = *problem_;
-  verdict_ = Verdict();
+  verdict_ = {.statistics = {Counter::kPivots}};
   if (trace_ != nullptr) {
     trace_->pivots.clear();
     trace_->consulted = 0;
@@ -108,9 +108,9 @@ void LemkeAlgorithm<Scalar, Rows>::SetUnits() {
     if (A > 0) unit_A_ = A;
     if (b > 0) unit_b_ = b;
     const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-    pivot_tolerance_ = std::max(Scalar(options_.tolerances.pivot), least);
-    tie_tolerance_ = std::max(Scalar(options_.tolerances.force), least);
-    residual_tolerance_ = std::max(Scalar(options_.tolerances.loop_grain), least);
+    pivot_tolerance_ = std::max(Scalar(request_.tolerances.pivot), least);
+    tie_tolerance_ = std::max(Scalar(request_.tolerances.force), least);
+    residual_tolerance_ = std::max(Scalar(request_.tolerances.loop_grain), least);
   }
 }
 
@@ -185,8 +185,8 @@ Scalar LemkeAlgorithm<Scalar, Rows>::MatrixEntry(const Component& w, const Compo
 template <class Scalar, int Rows>
 Scalar LemkeAlgorithm<Scalar, Rows>::LimitCover() const {
   const Problem& problem = *problem_;
-  if (options_.cover == Cover::kOnes) return unit_A_;
-  if (options_.cover == Cover::kGraded) return Scalar(1 / Grade<Scalar>());
+  if (kind_of_cover_ == Cover::kOnes) return unit_A_;
+  if (kind_of_cover_ == Cover::kGraded) return Scalar(1 / Grade<Scalar>());
   Scalar A = Scalar(0);
   for (int i = 0; i < problem.rows(); ++i) A = std::max<Scalar>(A, problem.A(i, i));
   return Sign(A) > 0 ? Scalar(unit_A_ / A) : Scalar(1);
@@ -196,7 +196,7 @@ template <class Scalar, int Rows>
 Scalar LemkeAlgorithm<Scalar, Rows>::CoverOf(const Component& w, const Scalar& limit_cover) const {
   if (w.block == Block::kMultiplier) return limit_cover;
   Scalar cover(1);
-  for (int r = 0; options_.cover == Cover::kGraded && r < w.row; ++r) cover *= Grade<Scalar>();
+  for (int r = 0; kind_of_cover_ == Cover::kGraded && r < w.row; ++r) cover *= Grade<Scalar>();
   return cover;
 }
 
@@ -393,7 +393,7 @@ void LemkeAlgorithm<Scalar, Rows>::Pivot(int row, int entering) {
     Eliminate(row);
   }
   basis_[row] = entering;
-  ++verdict_.statistics.pivots;
+  ++verdict_.statistics[Counter::kPivots];
 }
 
 template <class Scalar, int Rows>
@@ -436,13 +436,13 @@ void LemkeAlgorithm<Scalar, Rows>::EliminateIntegers(int row) {
 
 template <class Scalar, int Rows>
 bool LemkeAlgorithm<Scalar, Rows>::BudgetSpent() {
-  if (verdict_.statistics.pivots >= options_.limits.pivots) {
+  if (verdict_.statistics[Counter::kPivots] >= request_.limits.pivots) {
     verdict_.reason = "pivots";
-  } else if (options_.limits.Stopped()) {
+  } else if (request_.limits.Stopped()) {
     verdict_.reason = kStopped;
   } else {
     for (int i = 0; kIsExact<Scalar> && i < size_; ++i) {
-      if (MayExceedBits(i) && BitLength<Scalar>::Of(Value(i)) > options_.limits.bits) verdict_.reason = "bits";
+      if (MayExceedBits(i) && BitLength<Scalar>::Of(Value(i)) > request_.limits.bits) verdict_.reason = "bits";
     }
   }
   return !verdict_.reason.empty();
@@ -453,7 +453,7 @@ template <class Scalar, int Rows>
 bool LemkeAlgorithm<Scalar, Rows>::MayExceedBits(int i) const {
   const auto bits = &BitLength<Entry>::Of;
   const std::int64_t unit = basis_[i] < size_ ? bits(row_units_[basis_[i]]) : 0;
-  return std::max(bits(T_(i, 0)), bits(denominator_) + unit) > options_.limits.bits;
+  return std::max(bits(T_(i, 0)), bits(denominator_) + unit) > request_.limits.bits;
 }
 
 // ---- Answers -----------------------------------------------------------------------------------

@@ -35,39 +35,8 @@
 
 namespace stiction {
 
-struct BodyNewtonOptions {
-  double residual = 1e-8;   // largest error of an answer that is called solved
-  double aim = 1e-12;       // error at which it ends; between the two it ends when points gain nothing
-  double first_eps = 1e-2;  // without a start
-  double warm_eps = 1e-6;   // with one
-  double least_eps = 1e-7;
-  int points = 100;     // proximal problems tried
-  int newton = 20;      // steps of Newton's method for each of them
-  int failures = 1000;  // proximal problems that Newton's method may not solve
-  int halvings = 6;     // of a step that does not make R smaller
-  double noise = 0;     // accelerations up to it are rounding of b, and no error; m/s^2
-  Limits limits = {};   // of them `stop` alone counts
-};
-
-struct BodyNewtonStatistics {
-  std::int64_t points = 0;
-  std::int64_t newton_steps = 0;
-  std::int64_t factorizations = 0;
-
-  bool operator==(const BodyNewtonStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, BodyNewtonStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("points", "proximal problems tried", s.points);
-  visit("newton_steps", "steps of Newton's method", s.newton_steps);
-  visit("factorizations", "factorizations of its matrix", s.factorizations);
-}
-
-using BodyNewtonVerdict = RunEnd<BodyNewtonStatistics>;  // solved, undecided
-
+// Of a request residual, noise and limits.stop are read.
+//
 // Reusable. Memory and the ordering are kept between runs; answers do not depend on earlier ones.
 template <class Scalar>
 class BodyNewton {
@@ -75,12 +44,19 @@ class BodyNewton {
   using Problem = FactoredProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
-  explicit BodyNewton(const BodyNewtonOptions& options = {}) : options_(options) {}
+  explicit BodyNewton(const Request& request = {}) : request_(request) {}
 
-  BodyNewtonOptions& options() { return options_; }
+  Request& request() { return request_; }
+
+  static constexpr double kAim = 1e-12, kWarmEps = 1e-6;
+  static constexpr int kPoints = 100, kFailures = 1000;
+  double aim = kAim;           // error at which it ends; above it, and good enough, when points gain nothing
+  double warm_eps = kWarmEps;  // the first eps with a start
+  int points = kPoints;        // proximal problems tried
+  int failures = kFailures;    // proximal problems that Newton's method may not solve
 
   // With `start` (rows x 1, N) it begins there.
-  BodyNewtonVerdict Run(const Problem& problem, const Vector* start = nullptr);
+  RunEnd<> Run(const Problem& problem, const Vector* start = nullptr);
 
   // The best forces that the last run found, and a = A f + b.
   const Vector& f() const { return best_f_; }
@@ -109,8 +85,8 @@ class BodyNewton {
   bool Factor();
   Vector Solved(const Vector& y);
 
-  BodyNewtonOptions options_;
-  BodyNewtonVerdict verdict_;
+  Request request_;
+  RunEnd<> verdict_;
   const Problem* problem_ = nullptr;
   std::vector<Piece> pieces_;
   std::vector<int> columns_;

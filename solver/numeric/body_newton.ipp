@@ -12,33 +12,37 @@
 
 namespace stiction {
 
+inline constexpr double kFirstBodyEps = 1e-2, kLeastBodyEps = 1e-7;
+inline constexpr int kBodyNewton = 20;   // steps of Newton's method for a proximal problem
+inline constexpr int kBodyHalvings = 6;  // of a step that does not make R smaller
+
 template <class Scalar>
-BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* start) {
+RunEnd<> BodyNewton<Scalar>::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
   constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
-  const Scalar kHopeless(1e4), least(options_.least_eps);
-  eps_ = Scalar(start != nullptr ? options_.warm_eps : options_.first_eps);
+  const Scalar kHopeless(1e4), least(kLeastBodyEps);
+  eps_ = Scalar(start != nullptr ? warm_eps : kFirstBodyEps);
   Scalar best = Measured();
   best_f_ = f_;
   best_a_ = a_;
   int idle = 0, failures = 0;
-  while (!(best <= Scalar(options_.aim))) {
-    const bool is_good = best <= Scalar(options_.residual);
-    if (options_.limits.Stopped() && !is_good) {
+  while (!(best <= Scalar(aim))) {
+    const bool is_good = best <= Scalar(ResidualOf<Scalar>(request_));
+    if (request_.limits.Stopped() && !is_good) {
       verdict_.reason = kStopped;
       return verdict_;
     }
-    if (options_.limits.Stopped()) break;
-    if (verdict_.statistics.points == options_.points || eps_ > kHopeless || (is_good && idle == kIdle)) {
+    if (request_.limits.Stopped()) break;
+    if (verdict_.statistics[Counter::kPoints] == points || eps_ > kHopeless || (is_good && idle == kIdle)) {
       if (is_good) break;
       verdict_.reason = eps_ > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
     }
-    ++verdict_.statistics.points;
+    ++verdict_.statistics[Counter::kPoints];
     ++idle;
     const Vector v = v_;
     if (!Settle()) {
-      if (++failures > options_.failures) {
+      if (++failures > this->failures) {
         verdict_.reason = "Newton's method settles too rarely";
         return verdict_;
       }
@@ -62,7 +66,7 @@ BodyNewtonVerdict BodyNewton<Scalar>::Run(const Problem& problem, const Vector* 
 template <class Scalar>
 void BodyNewton<Scalar>::Start(const Problem& problem, const Vector* start) {
   problem_ = &problem;
-  verdict_ = {};
+  verdict_ = {.statistics = {Counter::kPoints, Counter::kNewtonSteps, Counter::kFactorizations}};
   is_factored_ = false;
   lu_.ForgetPivots();
   TakePieces();
@@ -174,9 +178,9 @@ template <class Scalar>
 Scalar BodyNewton<Scalar>::Measured() {
   a_ = problem_->A.J() * (problem_->w + problem_->Responses(f_)) + problem_->c;
   told_a_ = a_;
-  for (Scalar& x : told_a_) x = Abs(x) <= Scalar(options_.noise) ? Scalar(0) : x;
+  for (Scalar& x : told_a_) x = Abs(x) <= Scalar(request_.noise) ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, told_a_, meter_,
-                                              WorkingTheta<Scalar>(options_.residual, problem_->rows()));
+                                              WorkingTheta<Scalar>(request_.residual, problem_->rows()));
   return errors.Largest() + std::numeric_limits<Scalar>::epsilon() * errors.amplification;
 }
 
@@ -188,13 +192,13 @@ bool BodyNewton<Scalar>::Settle() {
   Evaluate();
   if (R_.size() == 0) return true;  // there are no velocities: f_ is all that it can be
   Scalar before = std::numeric_limits<Scalar>::infinity();
-  for (int step = 0; step <= options_.newton; ++step) {
+  for (int step = 0; step <= kBodyNewton; ++step) {
     const Scalar now = R_.cwiseAbs().maxCoeff();
     if (now <= rounding * size_ || (now <= small * size_ && !(now < before / 2))) return true;
-    if (step == options_.newton) break;
+    if (step == kBodyNewton) break;
     before = now;
-    ++verdict_.statistics.newton_steps;
-    if (options_.limits.Stopped() || !Factor()) break;
+    ++verdict_.statistics[Counter::kNewtonSteps];
+    if (request_.limits.Stopped() || !Factor()) break;
     Backtrack(Solved(R_));
     if (!v_.allFinite()) break;
   }
@@ -210,7 +214,7 @@ void BodyNewton<Scalar>::Backtrack(const Vector& step) {
   for (int halvings = 0;; ++halvings, part /= 2) {
     v_ = from - part * step;
     Evaluate();
-    if (halvings == options_.halvings || R_.norm() <= (1 - part / 1000) * norm) return;
+    if (halvings == kBodyHalvings || R_.norm() <= (1 - part / 1000) * norm) return;
   }
 }
 
@@ -295,7 +299,7 @@ void BodyNewton<Scalar>::Law(int contact, const std::array<Scalar, 3>& p, Scalar
 template <class Scalar>
 bool BodyNewton<Scalar>::Factor() {
   if (is_factored_ && eps_ == factored_eps_ && slopes_ == factored_) return true;
-  ++verdict_.statistics.factorizations;
+  ++verdict_.statistics[Counter::kFactorizations];
   Scalar* K = K_.valuePtr();
   std::fill(K, K + K_.nonZeros(), Scalar(0));
   const Scalar* M = problem_->M.valuePtr();

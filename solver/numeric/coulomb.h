@@ -21,7 +21,7 @@
 // semidefinite and b in range(A). A need not be symmetric.
 //
 // Over floating-point scalars only. `solved` means measured errors (problem/errors.h) of at most
-// CoulombOptions::residual; whatever else is undecided: nothing is claimed of it.
+// Request::residual; whatever else is undecided: nothing is claimed of it.
 // Singular A: Newton's matrix uses A + d / r, d tiny; the map does not, so its zeros are unchanged.
 // Shapes  f, a: rows x 1. All kinds of contacts. Requires dimension 3.
 // Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep. With a sparse A a sparse
@@ -46,42 +46,9 @@ enum class CoulombStart : std::uint8_t {
   kComplete,  // complete driving at once
 };
 
-struct CoulombOptions {
-  Tolerances tolerances;  // of complete driving
-  Limits limits;
-  double residual = 1e-8;  // largest error of an answer that is called solved
-  CoulombStart start = CoulombStart::kSweeps;
-  int sides = 8;          // of the first polygon; 2, 4 and 8 times as many follow; 0: none
-  int sweeps = 20;        // the first time; then four times as many each time
-  int newton_steps = 60;  // at a time
-  std::int64_t most_newton_steps = std::int64_t{1} << 40;  // in all
-
-  bool operator==(const CoulombOptions&) const = default;
-};
-
-struct CoulombStatistics {
-  std::int64_t sweeps = 0;
-  std::int64_t newton_steps = 0;
-  std::int64_t starts = 0;
-  std::int64_t polygons = 0;
-  std::int64_t pieces = 0;
-
-  bool operator==(const CoulombStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, CoulombStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("sweeps", "sweeps over all contacts", s.sweeps);
-  visit("newton_steps", "steps of Newton's method", s.newton_steps);
-  visit("starts", "points from which it started", s.starts);
-  visit("polygons", "runs of complete driving", s.polygons);
-  visit("pieces", "linear pieces of their paths", s.pieces);
-}
-
-using CoulombVerdict = RunEnd<CoulombStatistics>;  // solved, undecided
-
+// Of a request tolerances and limits, which are those of complete driving, residual and sides are read: sides
+// of the first polygon; 2, 4 and 8 times as many follow; 0: none.
+//
 // Reusable. Memory is kept between runs. Problem: a ContactProblem, or a SparseContactProblem, which complete
 // driving does not take: without polygons.
 template <class Scalar, class ProblemType = ContactProblem<Scalar>>
@@ -90,12 +57,15 @@ class CoulombSolver {
   using Problem = ProblemType;
   using Vector = typename Problem::Vector;
 
-  explicit CoulombSolver(const CoulombOptions& options = {}) : options_(options) {}
+  explicit CoulombSolver(const Request& request = {}, CoulombStart start = CoulombStart::kSweeps)
+      : request_(request), start_(start) {}
 
-  CoulombOptions& options() { return options_; }
+  Request& request() { return request_; }
+
+  std::int64_t most_newton_steps = std::int64_t{1} << 40;  // in all
 
   // With `start` (rows x 1, N) it begins there, with Newton's method.
-  CoulombVerdict Run(const Problem& problem, const Vector* start = nullptr);
+  RunEnd<> Run(const Problem& problem, const Vector* start = nullptr);
 
   // The best point found.
   const Vector& f() const { return best_f_; }
@@ -108,7 +78,7 @@ class CoulombSolver {
   using Slopes = std::vector<ContactSlope<Scalar>>;
 
   void Start(const Problem& problem);
-  Scalar theta() const { return WorkingTheta<Scalar>(options_.residual, problem_->rows()); }
+  Scalar theta() const { return WorkingTheta<Scalar>(request_.residual, problem_->rows()); }
   bool Reached() const;
   bool Done() const;
   void FromPolygon(int sides);
@@ -126,7 +96,8 @@ class CoulombSolver {
   Vector Map(const Vector& f, const Vector& a) const;
   ContactSlope<Scalar> SlopeOf(int i) const;
 
-  CoulombOptions options_;
+  Request request_;
+  CoulombStart start_;
   CompleteDriving<Scalar> driving_;
   const Problem* problem_ = nullptr;
   std::vector<int> first_row_;
@@ -142,7 +113,7 @@ class CoulombSolver {
   Vector best_f_, best_a_;
   ErrorMeter<Scalar> meter_;
   Scalar best_ = Scalar(0);
-  CoulombStatistics statistics_;
+  Counters statistics_;
 };
 
 }  // namespace stiction

@@ -17,29 +17,33 @@
 
 namespace stiction {
 
+inline constexpr int kFirstSweeps = 20;    // then four times as many each time
+inline constexpr int kStepsOfNewton = 60;  // at a time
+
 template <class Scalar, class ProblemType>
-CoulombVerdict CoulombSolver<Scalar, ProblemType>::Run(const Problem& problem, const Vector* start) {
+RunEnd<> CoulombSolver<Scalar, ProblemType>::Run(const Problem& problem, const Vector* start) {
   Start(problem);
   if (start != nullptr) {
     f_ = *start;
     Improve();
-  } else if (options_.start == CoulombStart::kSweeps) {
-    Sweep(options_.sweeps);
+  } else if (start_ == CoulombStart::kSweeps) {
+    Sweep(kFirstSweeps);
     Improve();
   }
-  for (int factor = 1; factor <= 8 && options_.sides > 0 && !Done(); factor *= 2)
-    FromPolygon(factor * options_.sides);
-  CoulombVerdict verdict;
+  for (int factor = 1; factor <= 8 && request_.sides > 0 && !Done(); factor *= 2)
+    FromPolygon(factor * request_.sides);
+  RunEnd<> verdict;
   verdict.statistics = statistics_;
   verdict.outcome = Reached() ? Outcome::kSolved : Outcome::kUndecided;
-  if (!Reached()) verdict.reason = options_.limits.Stopped() ? kStopped : "the residual is above the tolerance";
+  if (!Reached()) verdict.reason = request_.limits.Stopped() ? kStopped : "the residual is above the tolerance";
   return verdict;
 }
 
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Start(const Problem& problem) {
   problem_ = &problem;
-  statistics_ = {};
+  statistics_ = {Counter::kSweeps, Counter::kNewtonSteps, Counter::kStarts, Counter::kPolygons,
+                 Counter::kPieces};
   first_row_.assign(1, 0);
   r_.clear();
   own_.clear();
@@ -69,24 +73,24 @@ void CoulombSolver<Scalar, ProblemType>::Start(const Problem& problem) {
 
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::Reached() const {
-  return best_ <= std::max(Scalar(options_.residual), 8 * std::numeric_limits<Scalar>::epsilon());
+  return best_ <= std::max(Scalar(ResidualOf<Scalar>(request_)), 8 * std::numeric_limits<Scalar>::epsilon());
 }
 
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::Done() const {
-  return Reached() || options_.limits.Stopped() || statistics_.newton_steps >= options_.most_newton_steps;
+  return Reached() || request_.limits.Stopped() || statistics_[Counter::kNewtonSteps] >= most_newton_steps;
 }
 
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::FromPolygon(int sides) {
   if constexpr (std::is_same_v<Problem, ContactProblem<Scalar>>) {
-    driving_.options().tolerances = options_.tolerances;
-    driving_.options().limits = options_.limits;
-    const CompleteVerdict verdict = driving_.Run(
+    driving_.request().tolerances = request_.tolerances;
+    driving_.request().limits = request_.limits;
+    const RunEnd<> verdict = driving_.Run(
         *problem_,
         std::vector<FrictionPolygon<Scalar>>(problem_->contacts.size(), FrictionPolygon<Scalar>(sides)));
-    ++statistics_.polygons;
-    statistics_.pieces += verdict.statistics.pieces;
+    ++statistics_[Counter::kPolygons];
+    statistics_[Counter::kPieces] += verdict.statistics[Counter::kPieces];
     f_ = driving_.f();
     if (f_.allFinite()) Improve();
   }
@@ -96,10 +100,10 @@ void CoulombSolver<Scalar, ProblemType>::FromPolygon(int sides) {
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Improve() {
   constexpr int kRounds = 5;
-  ++statistics_.starts;
+  ++statistics_[Counter::kStarts];
   if (problem_->rows() == 0) return;
   Newton();
-  int count = options_.sweeps;
+  int count = kFirstSweeps;
   for (int round = 0; round < kRounds && !Done(); ++round, count *= 4) {
     if (count > problem_->rows()) {
       FollowPath();
@@ -116,8 +120,8 @@ void CoulombSolver<Scalar, ProblemType>::Improve() {
 template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::Sweep(int count) {
   a_ = problem_->A * f_ + problem_->b;
-  for (; count > 0 && !options_.limits.Stopped(); --count) {
-    ++statistics_.sweeps;
+  for (; count > 0 && !request_.limits.Stopped(); --count) {
+    ++statistics_[Counter::kSweeps];
     bool moved = false;
     for (std::size_t i = 0; i < r_.size(); ++i) {
       const int row = first_row_[i], size = first_row_[i + 1] - row;
@@ -192,10 +196,10 @@ bool CoulombSolver<Scalar, ProblemType>::Newton() {
   Scalar before = map.norm();
   const Scalar enough = rho_ > 0 ? before / 100 : Scalar(0);
   int idle = 0;
-  for (int step = 0; step < options_.newton_steps && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
+  for (int step = 0; step < kStepsOfNewton && idle < (Reached() ? 1 : rho_ > 0 ? 10 : 3); ++step) {
     if (best_ <= 4 * std::numeric_limits<Scalar>::epsilon()) return true;
-    if (options_.limits.Stopped() || statistics_.newton_steps >= options_.most_newton_steps) return false;
-    ++statistics_.newton_steps;
+    if (request_.limits.Stopped() || statistics_[Counter::kNewtonSteps] >= most_newton_steps) return false;
+    ++statistics_[Counter::kNewtonSteps];
     for (std::size_t i = 0; i < r_.size(); ++i) slopes[i] = SlopeOf(static_cast<int>(i));
     const auto improves = [&] {
       return LineSearch(map, SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, regular_), -map));
@@ -241,10 +245,10 @@ template <class Scalar, class ProblemType>
 void CoulombSolver<Scalar, ProblemType>::FollowPath() {
   constexpr int kMostSteps = 1000, kStepsEach = 60, kFew = 2;
   if (std::exchange(followed_, true)) return;
-  const std::int64_t end = statistics_.newton_steps + kMostSteps;
+  const std::int64_t end = statistics_[Counter::kNewtonSteps] + kMostSteps;
   f_.setZero();
   Slopes slopes;
-  for (Scalar m = free_ / 10; m > Scalar(1e-9) * free_ && statistics_.newton_steps < end;) {
+  for (Scalar m = free_ / 10; m > Scalar(1e-9) * free_ && statistics_[Counter::kNewtonSteps] < end;) {
     int steps = 0;
     for (; steps < kStepsEach && !Done(); ++steps) {
       const Vector map = SmoothMap(f_, m, &slopes);
@@ -262,7 +266,7 @@ void CoulombSolver<Scalar, ProblemType>::FollowPath() {
 // A step of Newton's method, which may make the map larger; false if there is none.
 template <class Scalar, class ProblemType>
 bool CoulombSolver<Scalar, ProblemType>::SmoothStep(const Scalar& m, const Vector& map, const Slopes& slopes) {
-  ++statistics_.newton_steps;
+  ++statistics_[Counter::kNewtonSteps];
   const Vector step = SolveLinear<Scalar>(JoinSlopes(slopes, first_row_, problem_->A), -map);
   if (!step.allFinite()) return false;
   const Scalar most = 20 * map.norm();

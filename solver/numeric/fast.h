@@ -45,48 +45,15 @@
 
 namespace stiction {
 
-struct FastOptions {
-  Tolerances tolerances;   // which violations move a contact, and which columns of M are dependent
-  Limits limits;           // of what is behind guesses; limits.pivots bounds `active` too
-  double residual = 1e-8;  // largest error of an answer that is called solved
-  bool drives = true;      // whether the published algorithm and complete driving are behind guesses
-  double noise = 0;        // accelerations up to it are rounding of b, and no error; m/s^2
-
-  bool operator==(const FastOptions&) const = default;
-};
-
-// Counters of one run.
-struct FastStatistics {
-  std::int64_t sweeps = 0;
-  std::int64_t exchanges = 0;
-  std::int64_t factorizations = 0;
-  std::int64_t updates = 0;
-  std::int64_t published = 0;
-  std::int64_t fallbacks = 0;
-
-  bool operator==(const FastStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, FastStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("sweeps", "Gauss-Seidel sweeps", s.sweeps);
-  visit("exchanges", "guesses of all cells", s.exchanges);
-  visit("factorizations", "reduced matrices factored", s.factorizations);
-  visit("updates", "contacts that entered or left a factored matrix", s.updates);
-  visit("published", "1 if the published algorithm was called", s.published);
-  visit("fallbacks", "1 if complete driving was called", s.fallbacks);
-}
-
-using FastVerdict = RunEnd<FastStatistics>;  // solved, limit, undecided
-
 // Whether `problem` is of a dimension that the fast method is built for.
 template <class Problem>
 bool FastHandles(const Problem& problem) {
   return problem.dimension == 2;
 }
 
+// Of a request tolerances (which violations move a contact, which columns of M are dependent), limits, residual
+// and noise are read; limits.pivots bounds the updates of a factored matrix, too.
+//
 // Reusable: a run of a problem no larger than one before allocates nothing, unless another method is called.
 template <class Scalar>
 class FastSolver {
@@ -94,13 +61,15 @@ class FastSolver {
   using Problem = ContactProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
-  explicit FastSolver(const FastOptions& options = {}) : options_(options) {}
+  explicit FastSolver(const Request& request = {}) : request_(request) {}
 
-  FastOptions& options() { return options_; }
+  Request& request() { return request_; }
+
+  bool drives = true;  // whether the published algorithm and complete driving are behind guesses
 
   // Requires FastHandles(problem). `guess` holds a cell per contact to start from, such as cells() of a
   // problem solved before; cells that a contact cannot be in are replaced. Without it, sweeps start.
-  FastVerdict Run(const Problem& problem, std::span<const Cell> guess = {});
+  RunEnd<> Run(const Problem& problem, std::span<const Cell> guess = {});
 
   // Forces in which the last run ended, and a = A f + b.
   const Vector& f() const { return f_; }
@@ -152,9 +121,9 @@ class FastSolver {
   int Blocking(Scalar& step) const;
   void Leave(int unknown);
 
-  FastOptions options_;
+  Request request_;
   const Problem* problem_ = nullptr;
-  FastVerdict verdict_;
+  RunEnd<> verdict_;
   Vector f_, a_, inverse_;  // inverse_: of the diagonal of A
   Vector a_told_;           // but for noise
   std::vector<Cell> cells_, next_;

@@ -32,7 +32,7 @@ inline constexpr int kSingles = 10;        // then exchanges of one contact each
 // ---- The run ---------------------------------------------------------------------------------
 
 template <class Scalar>
-FastVerdict FastSolver<Scalar>::Run(const Problem& problem, std::span<const Cell> guess) {
+RunEnd<> FastSolver<Scalar>::Run(const Problem& problem, std::span<const Cell> guess) {
   Start(problem);
   Guess(guess);
   bool found = Find() && Verify();
@@ -52,7 +52,8 @@ template <class Scalar>
 void FastSolver<Scalar>::Start(const Problem& problem) {
   const int rows = problem.rows(), contacts = static_cast<int>(problem.contacts.size());
   problem_ = &problem;
-  verdict_ = {};
+  verdict_ = {.statistics = {Counter::kSweeps, Counter::kExchanges, Counter::kFactorizations, Counter::kUpdates,
+                             Counter::kPublished, Counter::kFallbacks}};
   f_.resize(rows);
   a_.resize(rows);
   inverse_.resize(rows);
@@ -84,9 +85,9 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
   }
   unit_ = max_A_ > 0 ? 1 / max_A_ : Scalar(0);
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
-  pivot_ = std::max(Scalar(options_.tolerances.pivot), least);
-  zero_a_ = std::max(Scalar(options_.tolerances.acceleration), least);
-  zero_f_ = std::max(Scalar(options_.tolerances.force), least);
+  pivot_ = std::max(Scalar(request_.tolerances.pivot), least);
+  zero_a_ = std::max(Scalar(request_.tolerances.acceleration), least);
+  zero_f_ = std::max(Scalar(request_.tolerances.force), least);
 }
 
 // Whether a contact's friction has cells of its own.
@@ -134,10 +135,11 @@ bool FastSolver<Scalar>::Find() {
 // many ties. The published algorithm may loop there, but as a rule it does not, and soon ends in a solution.
 template <class Scalar>
 bool FastSolver<Scalar>::SolveAsPublished() {
-  ++verdict_.statistics.published;
-  published_.options() = {{}, options_.tolerances, options_.limits};
+  ++verdict_.statistics[Counter::kPublished];
+  published_.request() = request_;
+  published_.request().policy = {};
   const auto rows = static_cast<std::int64_t>(problem_->rows());
-  std::int64_t& pivots = published_.options().limits.pivots;
+  std::int64_t& pivots = published_.request().limits.pivots;
   pivots = std::min({pivots, kPublishedPivots * rows, kPublishedWork / (rows * rows)});
   if (published_.Run(*problem_).outcome != Outcome::kSolved) return false;
   const auto& state = published_.state();
@@ -155,15 +157,15 @@ template <class Scalar>
 void FastSolver<Scalar>::FallBack() {
   verdict_.outcome = Outcome::kUndecided;
   verdict_.reason = "no cells were found";
-  if (!options_.drives || !PublishedHandles(*problem_)) return;
+  if (!drives || !PublishedHandles(*problem_)) return;
   if (SolveAsPublished()) {
     verdict_.outcome = Outcome::kSolved;
     verdict_.reason = {};
     return;
   }
-  ++verdict_.statistics.fallbacks;
-  driving_.options() = {options_.tolerances, options_.limits, options_.residual};
-  const CompleteVerdict driven = driving_.Run(*problem_);
+  ++verdict_.statistics[Counter::kFallbacks];
+  driving_.request() = request_;
+  const RunEnd<> driven = driving_.Run(*problem_);
   f_ = driving_.f();
   SetAccelerations();
   for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i] = driving_.CellOf(static_cast<int>(i));
@@ -190,11 +192,11 @@ bool FastSolver<Scalar>::Verify() {
   const Scalar spoiled = (problem_->A.array() - problem_->A.array()).sum();
   const Scalar least = 8 * std::numeric_limits<Scalar>::epsilon();
   a_told_ = a_;
-  const Scalar noise = Scalar(options_.noise);
+  const Scalar noise = Scalar(request_.noise);
   for (Scalar& x : a_told_) x = Abs(x) <= noise ? Scalar(0) : x;
   const Errors<Scalar> errors = MeasureErrors(*problem_, FrictionLaw::kCoulomb, f_, a_told_, meter_,
-                                              WorkingTheta<Scalar>(options_.residual, problem_->rows()));
-  return errors.Largest() + spoiled <= std::max(Scalar(options_.residual), least);
+                                              WorkingTheta<Scalar>(request_.residual, problem_->rows()));
+  return errors.Largest() + spoiled <= std::max(Scalar(ResidualOf<Scalar>(request_)), least);
 }
 
 // Up to `tolerance`: an A from which bilateral rows were eliminated is symmetric but for rounding.
@@ -241,7 +243,7 @@ void FastSolver<Scalar>::AddColumn(int row, Scalar factor) {
 
 template <class Scalar>
 void FastSolver<Scalar>::Sweep(int sweeps) {
-  verdict_.statistics.sweeps += sweeps;
+  verdict_.statistics[Counter::kSweeps] += sweeps;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const Contact<Scalar>& contact = problem_->contacts[i];
@@ -304,7 +306,7 @@ bool FastSolver<Scalar>::ExchangeUntilSettled() {
     }
     if (frictionless_ && !distrust_ && (dropped_ || patience < 0)) return false;
     Move(patience < 0);
-    ++verdict_.statistics.exchanges;
+    ++verdict_.statistics[Counter::kExchanges];
   }
   return false;
 }
@@ -405,7 +407,7 @@ bool FastSolver<Scalar>::FactorSymmetric() {
     for (int i = j; i < size_; ++i) to[i] = from[unknowns_[i]];
     to[j] += shift_ * from[unknowns_[j]];
   }
-  ++verdict_.statistics.factorizations;
+  ++verdict_.statistics[Counter::kFactorizations];
   dropped_ = factor_.FactorSymmetric(size_, pivot_) > 0;
   return true;
 }
@@ -424,7 +426,7 @@ bool FastSolver<Scalar>::FactorGeneral() {
     }
     to[j] += shift_ * from[unknowns_[j]];
   }
-  ++verdict_.statistics.factorizations;
+  ++verdict_.statistics[Counter::kFactorizations];
   dropped_ = false;
   return factor_.FactorGeneral(size_, pivot_);
 }
@@ -496,7 +498,7 @@ void FastSolver<Scalar>::Move(bool last_only) {
 template <class Scalar>
 bool FastSolver<Scalar>::ActiveSet() {
   if (!StartActiveSet()) return false;
-  while (verdict_.statistics.updates < options_.limits.pivots) {
+  while (verdict_.statistics[Counter::kUpdates] < request_.limits.pivots) {
     const int contact = MostViolated();
     if (contact < 0) return true;
     if (!Enter(contact)) return false;
@@ -536,7 +538,7 @@ template <class Scalar>
 bool FastSolver<Scalar>::Enter(int contact) {
   for (int j = 0; j < size_; ++j) u_[j] = problem_->A(unknowns_[j], contact);
   if (!factor_.Append(u_.data(), problem_->A(contact, contact), pivot_)) return false;
-  ++verdict_.statistics.updates;
+  ++verdict_.statistics[Counter::kUpdates];
   unknowns_[size_] = contact;
   limit_[size_++] = Scalar(0);
   cells_[contact] = Cell::kFree;
@@ -575,7 +577,7 @@ int FastSolver<Scalar>::Blocking(Scalar& step) const {
 
 template <class Scalar>
 void FastSolver<Scalar>::Leave(int j) {
-  ++verdict_.statistics.updates;
+  ++verdict_.statistics[Counter::kUpdates];
   f_[unknowns_[j]] = Scalar(0);
   cells_[unknowns_[j]] = Cell::kBreak;
   factor_.Remove(j);

@@ -30,43 +30,19 @@
 
 namespace stiction {
 
-struct ProximalOptions {
-  double residual = 1e-8;  // largest error of an answer that is called solved
-  double aim = 1e-8;       // residual at which it ends; between the two it ends when points gain nothing
-  double first_eps = 0.1;
-  int points = 200;    // proximal problems tried
-  int newton = 12;     // steps of Newton's method for each of them
-  Limits limits = {};  // of which only `stop` is read
-};
-
-struct ProximalStatistics {
-  std::int64_t points = 0;
-  std::int64_t factorizations = 0;
-
-  bool operator==(const ProximalStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, ProximalStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("points", "proximal problems tried", s.points);
-  visit("factorizations", "factorizations of their Jacobians", s.factorizations);
-}
-
-using ProximalVerdict = RunEnd<ProximalStatistics>;  // solved, undecided
-
-// Requires a floating-point Scalar.
+// Of a request residual and limits.stop are read. Requires a floating-point Scalar.
 template <class Scalar>
 class ProximalNewton {
  public:
   using Problem = SparseContactProblem<Scalar>;
   using Vector = typename Problem::Vector;
 
-  explicit ProximalNewton(const ProximalOptions& options = {}) : options_(options) {}
+  // aim: residual at which it ends; between the two it ends when points gain nothing. 0: the residual.
+  explicit ProximalNewton(const Request& request = {}, double aim = 0)
+      : request_(request), aim_(aim > 0 ? aim : ResidualOf<Scalar>(request)) {}
 
   // Requires dimension 2. Starts from f = 0.
-  ProximalVerdict Run(const Problem& problem);
+  RunEnd<> Run(const Problem& problem);
 
   // The best forces that the last run found, and a = A f + b.
   const Vector& f() const { return best_f_; }
@@ -83,9 +59,10 @@ class ProximalNewton {
   void ListUnknowns();
   bool SolveCells();
 
-  ProximalOptions options_;
+  Request request_;
+  double aim_;
   const Problem* problem_ = nullptr;
-  ProximalVerdict verdict_;
+  RunEnd<> verdict_;
   Vector f_, a_;
   Vector best_f_, best_a_;
   Vector D_;

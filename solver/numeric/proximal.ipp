@@ -13,25 +13,30 @@
 
 namespace stiction {
 
+inline constexpr double kFirstProximalEps = 0.1;
+inline constexpr int kProximalPoints = 200;  // proximal problems tried
+inline constexpr int kProximalNewton = 12;   // steps of Newton's method for each of them
+
 template <class Scalar>
-ProximalVerdict ProximalNewton<Scalar>::Run(const Problem& problem) {
+RunEnd<> ProximalNewton<Scalar>::Run(const Problem& problem) {
   Start(problem);
   const Scalar kHopeless(1e6);  // so large an eps keeps f where it is
   constexpr int kIdle = 4;      // points that gain nothing before a solution is good enough
-  Scalar eps(options_.first_eps), best = Measured();
+  Scalar eps(kFirstProximalEps), best = Measured();
   int idle = 0;
-  while (!(best <= Scalar(options_.aim))) {
-    const bool is_good = best <= Scalar(options_.residual);
-    if (verdict_.statistics.points == options_.points || eps > kHopeless || (is_good && idle == kIdle)) {
+  while (!(best <= Scalar(aim_))) {
+    const bool is_good = best <= Scalar(ResidualOf<Scalar>(request_));
+    if (verdict_.statistics[Counter::kPoints] == kProximalPoints || eps > kHopeless ||
+        (is_good && idle == kIdle)) {
       if (is_good) break;
       verdict_.reason = eps > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
     }
-    if (options_.limits.Stopped()) {
+    if (request_.limits.Stopped()) {
       verdict_.reason = kStopped;
       return verdict_;
     }
-    ++verdict_.statistics.points;
+    ++verdict_.statistics[Counter::kPoints];
     ++idle;
     Regularize(eps);
     if (!Settle()) {
@@ -65,7 +70,7 @@ template <class Scalar>
 void ProximalNewton<Scalar>::Start(const Problem& problem) {
   STICTION_CHECK(problem.dimension == 2, "proximal points are for planar problems");
   problem_ = &problem;
-  verdict_ = {};
+  verdict_ = {.statistics = {Counter::kPoints, Counter::kFactorizations}};
   const int rows = problem.rows();
   f_ = Vector::Zero(rows);
   a_ = problem.b;
@@ -101,7 +106,7 @@ bool ProximalNewton<Scalar>::Settle() {
   trial_ = f_;
   trial_a_ = proximal_.A * trial_ + proximal_.b;
   Vector before;
-  for (int step = 0; step < options_.newton; ++step) {
+  for (int step = 0; step < kProximalNewton; ++step) {
     before = trial_;
     TakeCells();
     ListUnknowns();
@@ -176,7 +181,7 @@ bool ProximalNewton<Scalar>::SolveCells() {
   typename Problem::Matrix M(size, size);
   M.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<typename Problem::Matrix> factors(M);
-  ++verdict_.statistics.factorizations;
+  ++verdict_.statistics[Counter::kFactorizations];
   if (factors.info() != Eigen::Success) return false;
   const Vector solution = factors.solve(-proximal_.b(unknowns_));
   for (int k = 0; k < size; ++k) {

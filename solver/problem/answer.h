@@ -11,54 +11,19 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/problem/counters.h"
 #include "solver/problem/law.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
 
-// A counter of a method by the name that its table of statistics gives it.
-struct Counter {
-  std::string_view name;
-  std::int64_t value = 0;
-
-  bool operator==(const Counter&) const = default;
-};
-
-// The value of the counter of that name; zero where there is none.
-inline std::int64_t ValueOf(const std::vector<Counter>& counters, std::string_view name) {
-  for (const Counter& counter : counters) {
-    if (counter.name == name) return counter.value;
-  }
-  return 0;
-}
-
-// Adds to the counter of that name, which begins at zero.
-inline void Add(std::vector<Counter>& counters, std::string_view name, std::int64_t more = 1) {
-  for (Counter& counter : counters) {
-    if (counter.name != name) continue;
-    counter.value += more;
-    return;
-  }
-  counters.push_back({name, more});
-}
-
-// S: what has a table of counters, ForEachField(statistics, visit(name, help, value)).
-template <class S>
-std::vector<Counter> CountersOf(const S& statistics) {
-  std::vector<Counter> counters;
-  ForEachField(statistics, [&counters](const char* name, const char*, std::int64_t value) {
-    counters.push_back({name, value});
-  });
-  return counters;
-}
-
 struct Enclosure {
   double low = 0, high = 0;
 };
 
 // Rows and contacts are those of the whole problem. Vectors that a method does not have are empty.
-// Answer<double> stands for all inexact numbers: those of long double are rounded before they are judged; over
+// Answer<double> stands for all inexact numbers: those of quad are rounded before they are judged; over
 // enclosures its vectors are midpoints.
 template <class Scalar>
 struct Answer {
@@ -77,7 +42,7 @@ struct Answer {
   std::optional<Errors<double>> errors;  // of f, by the law that the answer is for; not of exact answers
   std::optional<Scalar> bound;           // exact, Coulomb's law in space: proved cosine of fF and -aF
   std::string word;                      // the cell of every contact
-  std::vector<Counter> counters;
+  Counters counters;
   std::vector<Pivot<Scalar>> pivots;              // of path methods, where asked for
   std::vector<Enclosure> f_enclosed, a_enclosed;  // over enclosures
   std::optional<Rung> rung;                       // of a filtered run
@@ -89,8 +54,8 @@ struct Answer {
 };
 
 // Of a run; what it has besides its end is for the caller to add.
-template <class Scalar, class Counters>
-Answer<Scalar> AnswerOf(const RunEnd<Counters>& end) {
+template <class Scalar, class Counted>
+Answer<Scalar> AnswerOf(const RunEnd<Counted>& end) {
   Answer<Scalar> answer;
   answer.outcome = end.outcome;
   answer.reason = end.reason;

@@ -104,6 +104,10 @@ template <class Scalar>
 inline constexpr double kSolvedResidual = 1e-8;
 template <>
 inline constexpr double kSolvedResidual<float> = 1e-5;
+template <class Scalar>
+double ResidualOf(const Request& request) {
+  return request.residual > 0 ? request.residual : kSolvedResidual<Scalar>;
+}
 
 // residual: what is asked for; 0: that of the scalar.
 template <class Scalar>

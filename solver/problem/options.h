@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of the solver, each said once: the policy switches (readings of the published text) and
-// the numbers (tolerances, limits). Command line, JSON, --help, validation and the policy grid all
+// Request: what is asked of a problem. Its parts are said once: the policy switches (readings of the published
+// text) and the numbers (tolerances, limits). Command line, JSON, --help, validation and the policy grid all
 // read the two tables of this file.
 
 #ifndef STICTION_SOLVER_PROBLEM_OPTIONS_H_
@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "solver/problem/law.h"
 
 namespace stiction {
 
@@ -160,10 +162,14 @@ void ForEachField(Limits& limits, Visit visit) {
 // planar contacts have less.
 inline constexpr int kUpdateFrom = 16;
 
-enum class Arithmetic : std::uint8_t { kFloat, kDouble, kLongDouble, kQuad, kInterval, kFiltered, kExact };
-inline constexpr int kArithmeticCount = 7;
+enum class Arithmetic : std::uint8_t { kFloat, kDouble, kQuad, kInterval, kFiltered, kExact };
+inline constexpr int kArithmeticCount = 6;
 inline constexpr std::array<std::string_view, kArithmeticCount> kArithmeticNames = {
-    "float", "double", "long-double", "quad", "interval", "filtered", "exact"};
+    "float", "double", "quad", "interval", "filtered", "exact"};
+
+inline constexpr std::array<Arithmetic, kArithmeticCount> kArithmetics = {
+    Arithmetic::kFloat,    Arithmetic::kDouble,   Arithmetic::kQuad,
+    Arithmetic::kInterval, Arithmetic::kFiltered, Arithmetic::kExact};
 
 inline constexpr std::string_view Name(Arithmetic arithmetic) {
   return kArithmeticNames[static_cast<int>(arithmetic)];
@@ -181,19 +187,31 @@ template <>
 inline constexpr Arithmetic kArithmeticOf<float> = Arithmetic::kFloat;
 template <>
 inline constexpr Arithmetic kArithmeticOf<double> = Arithmetic::kDouble;
-template <>
-inline constexpr Arithmetic kArithmeticOf<long double> = Arithmetic::kLongDouble;
 
 // Why a run that was stopped (Limits::stop) is undecided.
 inline constexpr std::string_view kStopped = "stopped";
 
-struct PublishedOptions {
-  Policy policy;
-  Tolerances tolerances;
-  Limits limits;
-  int update_from = kUpdateFrom;
+// ---- Request: what is asked of a problem -----------------------------------------------------
 
-  bool operator==(const PublishedOptions&) const = default;
+inline constexpr std::string_view kAutomatic = "auto";
+
+class DependentRows;  // enclosure.h
+
+struct Request {
+  std::string_view method = kAutomatic;        // a name of the table, which outlives the request
+  Arithmetic arithmetic = Arithmetic::kExact;  // of the call by names (certify/request/solve_in.h)
+  FrictionLaw law = FrictionLaw::kCoulomb;     // in space; of the method baraff it is kBaraff
+  Policy policy = {};                          // of the published algorithm
+  Tolerances tolerances = {};                  // of inexact arithmetics
+  Limits limits = {};
+  double residual = 0;                 // largest error of an answer that is called solved; 0: kSolvedResidual
+  double noise = 0;                    // accelerations up to it are rounding of b, and no error; m/s^2
+  int sides = 8;                       // of friction polygons in space, a multiple of 4; 0: none
+  bool trace = false;                  // whether the answer has the path of its method
+  bool confirm = true;                 // whether suspicions are run again
+  DependentRows* dependent = nullptr;  // over enclosures: rows that follow from others; null: none are known
+
+  bool operator==(const Request&) const = default;
 };
 
 }  // namespace stiction

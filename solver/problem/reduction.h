@@ -110,7 +110,6 @@ class Reduction {
 
 extern template class Reduction<float>;
 extern template class Reduction<double>;
-extern template class Reduction<long double>;
 
 }  // namespace stiction
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scalars: what the algorithms ask of a number type.
 //
-// One algorithm runs over float, double, long double and exact rationals. A Scalar has + - * /,
+// One algorithm runs over float, double, quad and exact rationals. A Scalar has + - * /,
 // comparisons, and construction from int. Branches look at signs only, through Sign(x, tol). Over
 // exact scalars the tolerance is ignored: there it is zero by construction, not by convention.
 

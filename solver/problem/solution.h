@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/problem/counters.h"
 #include "solver/problem/index_sets.h"
 #include "solver/problem/options.h"
 
@@ -60,19 +61,35 @@ struct Statistics {
   bool operator==(const Statistics&) const = default;
 };
 
+// visit(count, value)
+template <class S, class Visit>
+void ForEachCount(S& s, Visit visit) {
+  visit(Counter::kDrives, s.drives);
+  visit(Counter::kSteps, s.steps);
+  visit(Counter::kPivots, s.pivots);
+  visit(Counter::kZeroSteps, s.zero_steps);
+  visit(Counter::kLongestZeroRun, s.longest_zero_run);
+  visit(Counter::kBounces, s.bounces);
+  visit(Counter::kGiveUps, s.give_ups);
+  visit(Counter::kSingularDirections, s.singular_directions);
+  visit(Counter::kOuterScans, s.outer_scans);
+}
+
 // visit(name, help, counter)
 template <class S, class Visit>
 void ForEachField(S& s, Visit visit) {
-  visit("drives", "calls of drive-to-zero", s.drives);
-  visit("steps", "turns of its loop", s.steps);
-  visit("pivots", "steps after which a variable changed its set", s.pivots);
-  visit("zero_steps", "steps of length zero", s.zero_steps);
-  visit("longest_zero_run", "most zero steps in a row within a drive", s.longest_zero_run);
-  visit("bounces", "zero steps after which the variable wants back", s.bounces);
-  visit("give_ups", "variables removed from their set", s.give_ups);
-  visit("singular_directions", "direction systems with a singular matrix", s.singular_directions);
-  visit("outer_scans", "scans for a violated condition", s.outer_scans);
+  ForEachCount(s, [&visit](Counter c, auto& value) {
+    visit(kCounterNames[static_cast<int>(c)].name.data(), kCounterNames[static_cast<int>(c)].help.data(),
+          value);
+  });
 }
+
+inline Counters CountersOf(const Statistics& s) {
+  Counters counters;
+  ForEachCount(s, [&counters](Counter c, std::int64_t value) { counters.Tell(c) = value; });
+  return counters;
+}
+inline const Counters& CountersOf(const Counters& counters) { return counters; }
 
 // What a drive works toward: the conditions of its variable, or a friction force of zero.
 enum class DriveGoal : std::uint8_t { kEstablish, kZero };
@@ -130,15 +147,15 @@ struct Trace {
 
 // The end of a run, and its counters. start and period: in drives for a cycle, in steps for a stall
 // (readings.md, 2, 3); zero for methods that have no loops.
-template <class Counters>
+template <class Counted = Counters>
 struct RunEnd {
   Outcome outcome = Outcome::kUndecided;
   std::string_view reason = {};  // which limit, or why undecided; static text
-  Counters statistics = {};
+  Counted statistics = {};
   std::int64_t start = 0;
   std::int64_t period = 0;
 };
-using Verdict = RunEnd<Statistics>;
+using Verdict = RunEnd<Statistics>;  // of the published algorithm, whose counters stores add up
 
 }  // namespace stiction
 

@@ -46,9 +46,11 @@ class PublishedAlgorithm {
   using State = ContactState<Scalar, Rows>;
   using Vector = typename Problem::Vector;
 
-  explicit PublishedAlgorithm(const PublishedOptions& options = {}) : options_(options) {}
+  explicit PublishedAlgorithm(const Request& request = {}) : request_(request) {}
 
-  PublishedOptions& options() { return options_; }
+  Request& request() { return request_; }
+  // Unknowns from which on direction systems are updated (linear/updated_system.h).
+  void UpdateFrom(int unknowns) { update_from_ = unknowns; }
 
   // Runs from f = 0. Requires PublishedHandles(problem). With `trace`, every step is recorded, and the
   // switches that the run consulted.
@@ -125,7 +127,8 @@ class PublishedAlgorithm {
   }
   void Record(int driven, DriveGoal goal, const Step<Scalar>& step, IndexSet from, bool gave_up);
 
-  PublishedOptions options_;
+  Request request_;
+  int update_from_ = kUpdateFrom;
   const Problem* problem_ = nullptr;
   Trace<Scalar>* trace_ = nullptr;
   RowLayout<Rows> layout_;

@@ -65,8 +65,8 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
     trace_->consulted = 0;
   }
   layout_.Assign(problem.contacts);
-  scale_ = MakeScale(problem, options_.tolerances);
-  direction_.Start(problem, options_.update_from);
+  scale_ = MakeScale(problem, request_.tolerances);
+  direction_.Start(problem, update_from_);
   step_size_.Resize(rows);
   if constexpr (Rows == Eigen::Dynamic) state_.f.resize(rows);
   Rest();
@@ -127,12 +127,12 @@ void PublishedAlgorithm<Scalar, Rows>::Sweep() {
           Sign(state_.f[row], scale_.force) == 0 && Sign(state_.a[row], scale_.acceleration) >= 0;
       if (!rests) continue;
       Consult(PolicySwitch::kAdmit);
-      if (options_.policy.admit == Admit::kEager) state_.sets[row] = IndexSet::kSeparating;
+      if (request_.policy.admit == Admit::kEager) state_.sets[row] = IndexSet::kSeparating;
     } else if (NormalHolds(row - 1) && FrictionHolds(row)) {
       const bool presses = Sign(state_.f[row - 1], scale_.force) > 0;
       if (!presses && state_.sets[row - 1] != IndexSet::kSeparating) continue;
       Consult(PolicySwitch::kFile);
-      if (options_.policy.file == File::kNo) continue;
+      if (request_.policy.file == File::kNo) continue;
       if (presses) {
         FileBySign(row);
       } else {
@@ -151,7 +151,7 @@ void PublishedAlgorithm<Scalar, Rows>::FileBySign(int row) {
 template <class Scalar, int Rows>
 int PublishedAlgorithm<Scalar, Rows>::ScanForViolated() {
   ++verdict_.statistics.outer_scans;
-  const Policy& policy = options_.policy;
+  const Policy& policy = request_.policy;
   const int picked = Pick(policy.scan, policy.resume);
   // Over enclosures no more is asked than the policy asks.
   if (trace_ == nullptr || picked < 0 || kEncloses<Scalar>) return picked;
@@ -189,7 +189,7 @@ void PublishedAlgorithm<Scalar, Rows>::Establish(int row) {
   DriveToZero(row, DriveGoal::kZero);
   if (Ended() || !Violated(row)) return;
   Consult(PolicySwitch::kRezero);
-  if (options_.policy.rezero == Rezero::kContinue) DriveToZero(row, DriveGoal::kEstablish);
+  if (request_.policy.rezero == Rezero::kContinue) DriveToZero(row, DriveGoal::kEstablish);
 }
 
 // ---- One drive: 4.3 drive-to-zero, 5.2-5.5 ---------------------------------------------------
@@ -216,7 +216,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
     if constexpr (kEncloses<Scalar>) MeetDependentZeros(dependent_rows_, direction_.da());
     const Step<Scalar> step =
-        step_size_.Find(*problem_, layout_, state_, direction_, driven, goal, options_.policy.ties, scale_);
+        step_size_.Find(*problem_, layout_, state_, direction_, driven, goal, request_.policy.ties, scale_);
     if (step.limiting < 0) return End(Outcome::kRay);
     if (step.order_matters) Consult(PolicySwitch::kTies);
     const bool zero = Sign(step.s, scale_.force) == 0;
@@ -228,7 +228,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     statistics.longest_zero_run = std::max(statistics.longest_zero_run, zero_run_);
     const IndexSet from = state_.sets[step.limiting];
     const bool wants_back = step.limiting != driven && step.wants == last_left_[step.limiting];
-    const bool gives_up = GivesUp(options_.policy.give_up, wants_back, zero, last_step_zero_);
+    const bool gives_up = GivesUp(request_.policy.give_up, wants_back, zero, last_step_zero_);
     if (wants_back && zero != last_step_zero_) Consult(PolicySwitch::kGiveUp);
     statistics.bounces += wants_back && zero;
     statistics.give_ups += gives_up;
@@ -296,7 +296,7 @@ void PublishedAlgorithm<Scalar, Rows>::MoveLimiting(int row, IndexSet wants) {
   const int friction = row + 1;
   if (wants == IndexSet::kSeparating && IsFrictionSet(state_.sets[friction])) {
     Consult(PolicySwitch::kApex);
-    if (options_.policy.apex == Apex::kSuspended) Move(friction, IndexSet::kSuspended);
+    if (request_.policy.apex == Apex::kSuspended) Move(friction, IndexSet::kSuspended);
   } else if (wants == IndexSet::kClamped && state_.sets[friction] == IndexSet::kSuspended) {
     last_left_[friction] = IndexSet::kSuspended;
     FileBySign(friction);
@@ -311,7 +311,7 @@ void PublishedAlgorithm<Scalar, Rows>::GiveUpLimiting(int row, int driven) {
   const int friction = row + 1;
   if (friction == driven || state_.sets[friction] == IndexSet::kNone) return;
   Consult(PolicySwitch::kDrop);
-  if (options_.policy.drop == Drop::kContact) Move(friction, IndexSet::kNone);
+  if (request_.policy.drop == Drop::kContact) Move(friction, IndexSet::kNone);
 }
 
 // ---- Repeated states and budgets -------------------------------------------------------------
@@ -360,7 +360,7 @@ bool PublishedAlgorithm<Scalar, Rows>::SetsDecideForces(const Vector& earlier) {
 
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::OuterStateRecurs() {
-  const int contact = options_.policy.resume == Resume::kRound ? last_driven_contact_ : -1;
+  const int contact = request_.policy.resume == Resume::kRound ? last_driven_contact_ : -1;
   std::uint64_t rounded = 0;
   if constexpr (!kIsExact<Scalar>) rounded = RoundedHash();
   for (const OuterState& earlier : outer_states_) {
@@ -411,7 +411,7 @@ bool PublishedAlgorithm<Scalar, Rows>::InnerStateRecurs() {
 
 template <class Scalar, int Rows>
 bool PublishedAlgorithm<Scalar, Rows>::BudgetSpent() {
-  const Limits& limits = options_.limits;
+  const Limits& limits = request_.limits;
   if (verdict_.statistics.drives > limits.drives) {
     End(Outcome::kLimit, "drives");
   } else if (verdict_.statistics.steps >= limits.pivots) {

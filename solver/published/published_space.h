@@ -53,24 +53,6 @@ inline bool PublishedReadsInSpace(const Policy& policy) {
   return policy.file == File::kNo && policy.apex == Apex::kKept && policy.slip != Slip::kPolygon;
 }
 
-struct SpaceStatistics : Statistics {
-  std::int64_t redirects = 0;
-  std::int64_t breaks = 0;
-
-  bool operator==(const SpaceStatistics&) const = default;
-};
-
-// visit(name, help, counter)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, SpaceStatistics>
-void ForEachField(S& s, Visit visit) {
-  ForEachField<const Statistics>(s, visit);
-  visit("redirects", "contacts given up because their recorded direction opposes aF no more", s.redirects);
-  visit("breaks", "scans at which every contact is established by its set, yet (21) fails at one", s.breaks);
-}
-
-using PublishedSpaceVerdict = RunEnd<SpaceStatistics>;
-
 template <class Scalar>
 using SpaceTrace = std::vector<Pivot<Scalar>>;
 
@@ -81,13 +63,13 @@ class PublishedInSpace {
   using Vector = typename Problem::Vector;
   using Tangent = std::array<Scalar, 2>;
 
-  explicit PublishedInSpace(const PublishedOptions& options = {}) : options_(options) {}
+  explicit PublishedInSpace(const Request& request = {}) : request_(request) {}
 
-  PublishedOptions& options() { return options_; }
+  Request& request() { return request_; }
 
   // Runs from f = 0. Requires PublishedHandlesInSpace(problem), PublishedReadsInSpace(options().policy). With
   // `trace`, every step is recorded.
-  PublishedSpaceVerdict Run(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr);
+  Verdict Run(const Problem& problem, SpaceTrace<Scalar>* trace = nullptr);
 
   // ---- The main loop turn by turn, from any of its states: certify/exact/loops_in_space.h proves loops so.
 
@@ -123,7 +105,13 @@ class PublishedInSpace {
   const std::vector<Turning>& turnings() const { return turnings_; }
 
   // Of the last run, also of one that ended in an exception: what it had done. In the problem's own axes.
-  const PublishedSpaceVerdict& verdict() const { return verdict_; }
+  const Verdict& verdict() const { return verdict_; }
+  Counters counters() const {
+    Counters counters = CountersOf(verdict_.statistics);
+    counters.Tell(Counter::kRedirects) = redirects_;
+    counters.Tell(Counter::kBreaks) = breaks_;
+    return counters;
+  }
   Vector f() const { return InProblemAxes(state_.f); }
   Vector a() const { return InProblemAxes(state_.a); }
   // The direction of a ray.
@@ -221,7 +209,7 @@ class PublishedInSpace {
   Scalar Bound(int row) const;
   int FrictionOf(int row) const { return layout_.NormalRowOf(layout_.ContactOf(row)) + 1; }
 
-  PublishedOptions options_;
+  Request request_;
   const Problem* problem_ = nullptr;
   Problem turned_;  // the problem in the frames
   SpaceTrace<Scalar>* trace_ = nullptr;
@@ -251,7 +239,8 @@ class PublishedInSpace {
   bool assumes_turnings_ = false;
   std::vector<Turning> turnings_;
   Trail trail_;
-  PublishedSpaceVerdict verdict_;
+  Verdict verdict_;
+  std::int64_t redirects_ = 0, breaks_ = 0;
   bool ended_ = false;
   int last_driven_contact_ = -1;
   IndexSets<Eigen::Dynamic> last_left_;
@@ -262,7 +251,6 @@ class PublishedInSpace {
 
 extern template class PublishedInSpace<float>;
 extern template class PublishedInSpace<double>;
-extern template class PublishedInSpace<long double>;
 
 }  // namespace stiction
 

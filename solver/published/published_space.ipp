@@ -19,7 +19,7 @@ namespace stiction {
 // ---- Main loop: 4.3 compute-forces, 5.5 ------------------------------------------------------
 
 template <class Scalar>
-PublishedSpaceVerdict PublishedInSpace<Scalar>::Run(const Problem& problem, SpaceTrace<Scalar>* trace) {
+Verdict PublishedInSpace<Scalar>::Run(const Problem& problem, SpaceTrace<Scalar>* trace) {
   Start(problem, trace);
   while (!Ended() && !OuterStateRecurs()) TakeTurn();
   return verdict_;
@@ -45,13 +45,13 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   trace_ = trace;
   if (trace_ != nullptr) trace_->clear();
   layout_.Assign(problem.contacts, 3);
-  scale_ = MakeScale(problem, options_.tolerances);
+  scale_ = MakeScale(problem, request_.tolerances);
   double b = 0, A = 0;
   for (int i = 0; i < rows; ++i) {
     b = std::max(b, std::abs(Approximation<Scalar>::Of(problem.b[i])));
     A = std::max(A, std::abs(Approximation<Scalar>::Of(problem.A(i, i))));
   }
-  inverse_grain_ = b > 0 ? A / (b * options_.tolerances.loop_grain) : 0;
+  inverse_grain_ = b > 0 ? A / (b * request_.tolerances.loop_grain) : 0;
   direction_.Start(turned_);
   limits_.assign(rows, {});
   state_.f = Vector::Constant(rows, Scalar(0));
@@ -75,6 +75,7 @@ void PublishedInSpace<Scalar>::Start(const Problem& problem, SpaceTrace<Scalar>*
   slip_ends_.clear();
   trail_ = {};
   verdict_ = {};
+  redirects_ = breaks_ = 0;
   ended_ = false;
   last_driven_contact_ = -1;
   last_step_zero_ = false;
@@ -150,7 +151,7 @@ bool PublishedInSpace<Scalar>::OpposesNoMore(int row) const {
 // Satisfied normals that no drive established: switch `admit` (4.1 against 4.3).
 template <class Scalar>
 void PublishedInSpace<Scalar>::Sweep() {
-  if (options_.policy.admit == Admit::kLazy) return;
+  if (request_.policy.admit == Admit::kLazy) return;
   for (int contact = 0; contact < layout_.ContactCount(); ++contact) {
     const int row = layout_.NormalRowOf(contact);
     if (state_.sets[row] != IndexSet::kNone || Sign(state_.f[row], scale_.force) != 0) continue;
@@ -167,13 +168,13 @@ int PublishedInSpace<Scalar>::ScanForViolated() {
                                  : Square(state_.a, row) > Square(state_.a, other);
   };
   const auto pick = [&](const auto& fails) {
-    return PickViolated(layout_, options_.policy.scan, options_.policy.resume, last_driven_contact_, fails,
+    return PickViolated(layout_, request_.policy.scan, request_.policy.resume, last_driven_contact_, fails,
                         worse);
   };
   const int violated = pick([this](int row) { return Violated(row); });
-  if (violated >= 0 || options_.policy.slip != Slip::kLiteral) return violated;
+  if (violated >= 0 || request_.policy.slip != Slip::kLiteral) return violated;
   const int broken = pick([this](int row) { return OpposesNoMore(row); });
-  verdict_.statistics.breaks += broken >= 0;
+  breaks_ += broken >= 0;
   return broken;
 }
 
@@ -188,7 +189,7 @@ void PublishedInSpace<Scalar>::Establish(int row) {
   state_.sets[row] = IndexSet::kNone;
   AlongForce(row);
   DriveToZero(row, DriveGoal::kZero, -1);
-  if (Ended() || options_.policy.rezero == Rezero::kRescan || !Violated(row)) return;
+  if (Ended() || request_.policy.rezero == Rezero::kRescan || !Violated(row)) return;
   EstablishFriction(row);
 }
 
@@ -266,7 +267,7 @@ void PublishedInSpace<Scalar>::DriveToZero(int driven, DriveGoal goal, int sign)
       MoveDriven(driven, step.wants);
     } else if (!TurnsAway(step.limiting)) {
       const bool wants_back = step.wants == last_left_[step.limiting];
-      gives_up = GivesUp(options_.policy.give_up, wants_back, zero, last_step_zero_);
+      gives_up = GivesUp(request_.policy.give_up, wants_back, zero, last_step_zero_);
       statistics.bounces += wants_back && zero;
       statistics.give_ups += gives_up;
       if (gives_up) {
@@ -316,7 +317,7 @@ void PublishedInSpace<Scalar>::MeetLimit(int row, IndexSet wants) {
     case IndexSet::kSticking:
       state_.a[row] = Scalar(0);
       if (state_.sets[row] == IndexSet::kAtUpper &&
-          (options_.policy.slip == Slip::kLiteral || SlipEndsOnLine(layout_.ContactOf(row))))
+          (request_.policy.slip == Slip::kLiteral || SlipEndsOnLine(layout_.ContactOf(row))))
         state_.a[row + 1] = Scalar(0);
       break;
     case IndexSet::kAtUpper:
@@ -365,7 +366,7 @@ void PublishedInSpace<Scalar>::MoveLimiting(int row, IndexSet wants) {
 // contact is given up whatever the length of the step.
 template <class Scalar>
 bool PublishedInSpace<Scalar>::TurnsAway(int row) {
-  if (state_.sets[row] != IndexSet::kAtUpper || options_.policy.slip != Slip::kRedirect) return false;
+  if (state_.sets[row] != IndexSet::kAtUpper || request_.policy.slip != Slip::kRedirect) return false;
   if (assumes_turnings_ && !IsSurelyZero(state_.a[row + 1])) {
     const std::pair end = {layout_.ContactOf(row), line_in_period_};
     const bool rests_at_zero = !line_in_period_.empty() && line_in_period_.back() == 0;
@@ -377,7 +378,7 @@ bool PublishedInSpace<Scalar>::TurnsAway(int row) {
   }
   Move(row, IndexSet::kNone);
   given_up_by_turning_[layout_.ContactOf(row)] = true;
-  ++verdict_.statistics.redirects;
+  ++redirects_;
   return true;
 }
 
@@ -385,7 +386,7 @@ bool PublishedInSpace<Scalar>::TurnsAway(int row) {
 template <class Scalar>
 void PublishedInSpace<Scalar>::GiveUpLimiting(int row, int driven_contact) {
   Move(row, IndexSet::kNone);
-  if (!layout_.IsNormal(row) || !layout_.HasFriction(row) || options_.policy.drop == Drop::kVariable) return;
+  if (!layout_.IsNormal(row) || !layout_.HasFriction(row) || request_.policy.drop == Drop::kVariable) return;
   if (layout_.ContactOf(row) != driven_contact && state_.sets[row + 1] != IndexSet::kNone)
     Move(row + 1, IndexSet::kNone);
 }
@@ -417,7 +418,7 @@ Step<Scalar> PublishedInSpace<Scalar>::FindStep(int driven, DriveGoal goal) {
     if (limits_[row].exists && (nearest < 0 || limits_[row].s < limits_[nearest].s)) nearest = row;
   }
   if (nearest < 0) return {};
-  const int limiting = FirstOf(driven, nearest, options_.policy.ties);
+  const int limiting = FirstOf(driven, nearest, request_.policy.ties);
   return {limits_[limiting].s, limiting, limits_[limiting].wants, false};
 }
 
@@ -506,7 +507,7 @@ void PublishedInSpace<Scalar>::LimitSlipping(Limit& limit, int row) const {
   const Vector& da = direction_.da();
   const bool rests = IsSurelyZero(a[row]) && IsSurelyZero(a[row + 1]);
   const bool on_line = !rests && SlipEndsOnLine(layout_.ContactOf(row));
-  const bool redirects = options_.policy.slip == Slip::kRedirect;
+  const bool redirects = request_.policy.slip == Slip::kRedirect;
   if (rests || (redirects && !on_line))
     return Offer(limit, Scalar(-a[row]), da[row], IndexSet::kSticking, scale_.rate);
   if (redirects && (IsSurelyZero(da[row]) || Sign(da[row]) <= 0)) return;
@@ -711,7 +712,7 @@ void PublishedInSpace<Scalar>::MoveAlong(const Step<Scalar>& step, bool zero) {
 template <class Scalar>
 auto PublishedInSpace<Scalar>::standing() const -> Standing {
   Standing standing = {state_.sets, given_up_by_turning_, -1, f(), {}, recorded_anew_};
-  if (options_.policy.resume == Resume::kRound) standing.last_driven = last_driven_contact_;
+  if (request_.policy.resume == Resume::kRound) standing.last_driven = last_driven_contact_;
   for (const Frame& frame : frames_) standing.recorded.push_back(frame.p);
   return standing;
 }
@@ -793,10 +794,10 @@ std::uint64_t PublishedInSpace<Scalar>::RoundedHash() const {
     mix(static_cast<std::uint64_t>(state_.sets[row]));
     if (state_.sets[row] != IndexSet::kAtUpper) continue;
     for (const Scalar& component : frames_[layout_.ContactOf(row)].p)
-      mix_rounded(component, 1 / options_.tolerances.loop_grain);
+      mix_rounded(component, 1 / request_.tolerances.loop_grain);
   }
   for (const char turning : given_up_by_turning_) mix(static_cast<std::uint64_t>(turning));
-  if (options_.policy.resume == Resume::kRound) mix(static_cast<std::uint64_t>(last_driven_contact_ + 1));
+  if (request_.policy.resume == Resume::kRound) mix(static_cast<std::uint64_t>(last_driven_contact_ + 1));
   return hash;
 }
 
@@ -828,7 +829,7 @@ bool PublishedInSpace<Scalar>::OuterStateRecurs() {
   if constexpr (kIsExact<Scalar>) {
     now.sets = state_.sets;
     now.turned_away = given_up_by_turning_;
-    if (options_.policy.resume == Resume::kRound) now.contact = last_driven_contact_;
+    if (request_.policy.resume == Resume::kRound) now.contact = last_driven_contact_;
     now.memoryless = Memoryless();
     now.singular_directions = verdict_.statistics.singular_directions;
   }
@@ -858,11 +859,11 @@ bool PublishedInSpace<Scalar>::OuterStateRecurs() {
 
 template <class Scalar>
 bool PublishedInSpace<Scalar>::BudgetSpent() {
-  if (verdict_.statistics.drives > options_.limits.drives) {
+  if (verdict_.statistics.drives > request_.limits.drives) {
     End(Outcome::kLimit, "drives");
-  } else if (verdict_.statistics.steps >= options_.limits.pivots) {
+  } else if (verdict_.statistics.steps >= request_.limits.pivots) {
     End(Outcome::kLimit, "pivots");
-  } else if (options_.limits.Stopped()) {
+  } else if (request_.limits.Stopped()) {
     End(Outcome::kUndecided, kStopped);
   } else {
     EndUnlessFinite();

@@ -27,7 +27,7 @@ void CheckAgainstBruteForce(const ExactProblem& problem) {
       CAPTURE(PolicyName(policy), PolicyName(equal.policies.front()));
       CHECK(seen.insert(PolicyName(policy)).second);
       if (testing::Short() && k++ % 8 != 0) continue;
-      const Verdict verdict = RunExact(problem, {policy, {}, {}}).verdict;
+      const Verdict verdict = RunExact(problem, {.policy = policy}).verdict;
       REQUIRE(verdict.outcome == equal.verdict.outcome);
       REQUIRE(verdict.start == equal.verdict.start);
       REQUIRE(verdict.period == equal.verdict.period);
@@ -72,7 +72,7 @@ TEST_CASE("exact runs: without friction every policy solves within 2^n - 1 drive
   // safe-tie-yet-given-up of the corpus.
   const ExactProblem tie =
       MakeProblem({-1, -1, -1}, {{20, -10, -2}, {-10, 20, 20}, {-2, 20, 40}}, {2, -20, -100});
-  const Verdict verdict = RunExact(tie, {ParsePolicy("apex=suspended"), {}, {}}).verdict;
+  const Verdict verdict = RunExact(tie, {.policy = ParsePolicy("apex=suspended")}).verdict;
   CHECK(verdict.outcome == Outcome::kSolved);
   CHECK(verdict.statistics.give_ups == 1);
   CHECK(verdict.statistics.drives == 4);
@@ -129,7 +129,7 @@ TEST_CASE("runs with bilateral and sliding contacts: every step in the terms of 
     CAPTURE(seed);
     const ExactProblem problem = RandomMixed(seed, seed % 2 == 0);
     Choices choices(seed);
-    const ExactRun run = RunExact(problem, {RandomPolicy(choices), {}, {}});
+    const ExactRun run = RunExact(problem, {.policy = RandomPolicy(choices)});
     ++ends[static_cast<int>(run.verdict.outcome)];
     ExactVector f = run.initial_f;
     for (const Pivot<Rational>& pivot : run.trace.pivots) {
@@ -158,7 +158,7 @@ TEST_CASE("runs with bilateral contacts: steps and loops of what they leave, und
     CHECK(classes[k].verdict.outcome == again[k].verdict.outcome);
     CHECK(classes[k].verdict.statistics == again[k].verdict.statistics);
   }
-  const PublishedOptions round = {ParsePolicy("resume=round"), {}, {}};
+  const Request round = {.policy = ParsePolicy("resume=round")};
   const ExactRun plain = RunExact(problem, round), run = RunExact(bordered, round);
   CHECK(run.policy == round.policy);
   CHECK(run.state.last_driven_contact == plain.state.last_driven_contact + 1);

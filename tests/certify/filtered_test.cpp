@@ -93,12 +93,9 @@ struct Decided {
   bool narrow = false, wide = false;
 };
 Decided AgreeOnRungs(std::string_view method, const ExactProblem& problem, const Policy& policy = {}) {
-  SolveRequest request{.method = std::string(method), .trace = KeepTrace::kYes};
-  request.options.policy = policy;
+  const Request request{.method = method, .policy = policy, .trace = true};
   const ExactAnswer exact = std::get<ExactAnswer>(SolveIn(problem, request).answer);
-  const auto agrees = [&](Rung rung) {
-    return Agrees(RunEnclosed(method, problem, request.options, rung, KeepTrace::kYes), exact);
-  };
+  const auto agrees = [&](Rung rung) { return Agrees(RunEnclosed(method, problem, request, rung), exact); };
   return {agrees(Rung::kDouble), agrees(Rung::kDoubleDouble)};
 }
 
@@ -136,8 +133,7 @@ TEST_CASE("filtered: a problem beyond the doubles is undecided on a rung, and de
         const InexactAnswer run = RunEnclosed(method, problem, {}, rung);
         CHECK((run.Solved() || run.outcome == Outcome::kUndecided));
       }
-      const Solution filtered =
-          SolveIn(problem, {.method = std::string(method), .arithmetic = Arithmetic::kFiltered});
+      const Solution filtered = SolveIn(problem, {.method = method, .arithmetic = Arithmetic::kFiltered});
       CHECK(filtered.outcome() == Outcome::kSolved);
     }
   }
@@ -196,16 +192,15 @@ TEST_CASE("filtered: bilateral and sliding contacts leave exactly, and runs are 
 TEST_CASE("filtered: of problem after problem the verdict is that of rationals, whichever rung it begins on") {
   std::array<int, 3> decided = {};
   for (const char* name : {"paper", "admit=eager,file=yes,apex=suspended", "scan=most-violated"}) {
-    PublishedOptions options;
-    options.policy = ParsePolicy(name);
+    const Request request{.policy = ParsePolicy(name)};
     for (const GeneratorRow& generator : Generators()) {
       if (generator.InSpace()) continue;
       for (int index = 0; index < Few(40); ++index) {
         const ExactProblem problem = Random<Rational>(generator.id, 1 + index % 5, index);
-        const Verdict exact = RunExact(problem, options).verdict;
+        const Verdict exact = RunExact(problem, request).verdict;
         for (const Rung first : {Rung::kDouble, Rung::kDoubleDouble, Rung::kExact}) {
           CAPTURE(name, generator.name, index, Name(first));
-          const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, options, {.first = first});
+          const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, request, {.first = first});
           CHECK(verdict.outcome == exact.outcome);
           CHECK(verdict.statistics == exact.statistics);
           CHECK(verdict.start == exact.start);
@@ -239,7 +234,7 @@ TEST_CASE("filtered: floats of 512 bits decide what double-doubles leave open, a
     CHECK(verdict.statistics == exact.statistics);
     CHECK(verdict.start == exact.start);
     CHECK(verdict.period == exact.period);
-    const InexactAnswer path = RunEnclosed("baraff", problem, {}, rung, KeepTrace::kYes);
+    const InexactAnswer path = RunEnclosed("baraff", problem, {}, rung, true);
     CHECK(path.outcome == exact.outcome);
     CHECK(static_cast<std::int64_t>(path.pivots.size()) == exact.statistics.steps);
   }

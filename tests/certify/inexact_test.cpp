@@ -54,9 +54,7 @@ ExactProblem Exactly(const ContactProblem<double>& problem) {
 TEST_CASE("inexact: a problem without a solution is never called solved") {
   FastSolver<double> fast;
   CompleteDriving<double> complete;
-  LemkeOptions options;
-  options.cover = Cover::kUnits;
-  LemkeAlgorithm<double> lemke(options);
+  LemkeAlgorithm<double> lemke({}, Cover::kUnits);
   int without = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     CAPTURE(seed);

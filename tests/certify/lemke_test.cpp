@@ -137,10 +137,8 @@ TEST_CASE("lemke: the variables of a trace have names and rows") {
 
 // The tableau of doubles is in other units than the problem.
 TEST_CASE("lemke: over doubles the trace has the same names, and numbers in the problem's units") {
-  LemkeOptions options;
-  options.cover = Cover::kUnits;
-  LemkeAlgorithm<Rational> exact(options);
-  LemkeAlgorithm<double> rounded(options);
+  LemkeAlgorithm<Rational> exact({}, Cover::kUnits);
+  LemkeAlgorithm<double> rounded({}, Cover::kUnits);
   int alike = 0;
   for (std::uint64_t index = 0; index < 30; ++index) {
     const ExactProblem problem = Random<Rational>(GeneratorId::kConditioned, 3, index);

@@ -98,7 +98,7 @@ TEST_CASE("loops in space: proved by sets and by boxes, under both slips") {
       const LoopInSpace loop = Proof(problem, policy);
       CHECK(loop.IsBox() == is_box);
       CHECK(FaultyPlace(problem, policy, loop).empty());
-      const InexactAnswer run = RunIntervalsInSpace(problem, {policy, {}, {}});
+      const InexactAnswer run = RunIntervalsInSpace(problem, {.policy = policy});
       CHECK(run.outcome == Outcome::kCycle);
       CHECK(run.period == loop.period);
     }

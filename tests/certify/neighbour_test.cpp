@@ -164,8 +164,8 @@ TEST_CASE("neighbour: of problems of the dials of the gate, nothing that is call
     for (const std::string method : {"auto", "fast", "complete", "lemke", "baraff"}) {
       for (const Arithmetic arithmetic : {Arithmetic::kFloat, Arithmetic::kDouble}) {
         CAPTURE(source.family, source.setting, method, Name(arithmetic));
-        SolveRequest request = {.method = method, .arithmetic = arithmetic, .confirm = false};
-        request.options.limits.drives = request.options.limits.pivots = 1000;
+        Request request = {.method = method, .arithmetic = arithmetic, .confirm = false};
+        request.limits.drives = request.limits.pivots = 1000;
         try {
           const Solution solution = SolveIn(problem, request);
           CHECK(FaultOf(problem, request, solution) == "");

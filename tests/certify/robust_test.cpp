@@ -45,7 +45,7 @@ ExactProblem Moved(const ExactProblem& problem, const Rational& radius, Choices&
 
 TEST_CASE("robust: every problem of the box loops with the same start and period") {
   const ExactProblem problem = Loop();
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   const auto radius = RadiusOfLoop(problem, options);
   REQUIRE(radius.has_value());
   CHECK(*radius > Rational(1, 100000));
@@ -62,7 +62,7 @@ TEST_CASE("robust: every problem of the box loops with the same start and period
 
 TEST_CASE("robust: a box that holds a problem without the loop is not proved") {
   const ExactProblem problem = Loop();
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   const ExactRun run = RunExact(problem, options);
   Choices random(6);
   int others = 0;
@@ -84,13 +84,13 @@ TEST_CASE("robust: a box that holds a problem without the loop is not proved") {
 TEST_CASE("robust: no radius for a run that solves") {
   ExactProblem problem = ReferenceProblem();
   for (auto& contact : problem.contacts) contact.mu = Rational(1, 8);
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   REQUIRE(RunExact(problem, options).verdict.outcome == Outcome::kSolved);
   CHECK_FALSE(RadiusOfLoop(problem, options).has_value());
 }
 
 TEST_CASE("robust: no radius where two limits are met at once") {
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   REQUIRE(RunExact(ReferenceProblem(), options).verdict.outcome == Outcome::kCycle);
   CHECK_FALSE(RadiusOfLoop(ReferenceProblem(), options).has_value());
 }
@@ -206,14 +206,14 @@ int PartsOf(const TouchingScene& scene) {
   return parts;
 }
 
-bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const PublishedOptions& options) {
+bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const Request& options) {
   const ExactRun near = RunExact(problem, options);
   return near.verdict.outcome == Outcome::kCycle && near.verdict.start == run.verdict.start &&
          near.verdict.period == run.verdict.period && near.state.sets == run.state.sets;
 }
 
 TEST_CASE("robust: every scene of the box loops with the same start and period") {
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   Choices random(7);
   const auto check = [&](const Scene<Rational>& scene, const Rational& least, int draws) {
     const TouchingScene touching = Touching(scene);
@@ -270,7 +270,7 @@ TEST_CASE("robust: the box of a scene is as large as it is said to be, and no la
 
 TEST_CASE("robust: every scene of the box loops where forces and moments are given, too") {
   const TouchingScene touching = Touching(Loaded());
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   const ExactRun run = RunExact(touching.problem, options);
   REQUIRE(run.verdict.outcome == Outcome::kCycle);
   const auto radius = RadiusOfSceneLoop(touching, options);
@@ -281,7 +281,7 @@ TEST_CASE("robust: every scene of the box loops where forces and moments are giv
 }
 
 TEST_CASE("robust: a box that holds a scene without the loop is not proved") {
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   Choices random(8);
   for (const char* name : {"weight-on-two-pegs", "block-in-a-valley"}) {
     const TouchingScene touching = Touching(SceneNamed(name));
@@ -301,7 +301,7 @@ TEST_CASE("robust: a box that holds a scene without the loop is not proved") {
 
 TEST_CASE("robust: a scene knows ties that a body at rest explains, the matrix alone does not") {
   const TouchingScene touching = Touching(SceneOfRecord());
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   CHECK_FALSE(RadiusOfLoop(touching.problem, options).has_value());
   CHECK(RadiusOfSceneLoop(touching, options).value_or(0) > 0);
 }
@@ -340,7 +340,7 @@ TEST_CASE("robust: no radius of a scene that is solved") {
   Scene<Rational> scene = SceneNamed("weight-on-two-pegs");
   scene.mu = Rational(1, 10);
   const TouchingScene touching = Touching(scene);
-  const PublishedOptions options{{}, {}, kLimits};
+  const Request options{.limits = kLimits};
   REQUIRE(RunExact(touching.problem, options).verdict.outcome == Outcome::kSolved);
   CHECK_FALSE(RadiusOfSceneLoop(touching, options).has_value());
 }

@@ -233,7 +233,7 @@ TEST_CASE("safe: the published algorithm gives nothing up in a safe problem, and
     for (const Rational& mu : {Rational(1, 10), Rational(1, 2), Rational(5)}) {
       problem = WithMu(problem, mu);
       const auto gives_up = [&](const char* policy) {
-        const Verdict verdict = RunExact(problem, {ParsePolicy(policy), {}, {}}).verdict;
+        const Verdict verdict = RunExact(problem, {.policy = ParsePolicy(policy)}).verdict;
         return verdict.statistics.give_ups > 0 || verdict.outcome != Outcome::kSolved;
       };
       const bool is_safe = !DecideSafety(problem).unsafe_word;
@@ -262,7 +262,7 @@ TEST_CASE("safe: at an apex that is kept the published algorithm gives up in a s
   CHECK(IsPositiveSemidefinite(problem));
   CHECK_FALSE(IsSafeWithKeptFriction(problem));
   CHECK(RunExact(problem, {}).verdict.statistics.give_ups == 1);
-  CHECK(RunExact(problem, {ParsePolicy("apex=suspended"), {}, {}}).verdict.statistics.give_ups == 0);
+  CHECK(RunExact(problem, {.policy = ParsePolicy("apex=suspended")}).verdict.statistics.give_ups == 0);
 }
 
 TEST_CASE("safe: a safe problem has one solution") {
@@ -444,7 +444,7 @@ TEST_CASE("safe: where no determinant is negative complete driving neither folds
     const ExactProblem problem = Singular(seed, 1 + seed % 3, Rational(6, 1 + seed % 17));
     const ExactAnswer run = RunComplete(problem, {});
     REQUIRE(run.Solved());
-    const auto folds = ValueOf(run.counters, "folds"), descents = ValueOf(run.counters, "descents");
+    const auto folds = run.counters[Counter::kFolds], descents = run.counters[Counter::kDescents];
     const bool is_weakly_safe = !DecideWeakSafety(problem).negative_word;
     weakly += is_weakly_safe;
     turned += folds + descents > 0;

@@ -41,8 +41,8 @@ struct Count {
 void Check(const ExactProblem& problem, const MethodFacts& facts, Arithmetic arithmetic, Count& count) {
   if (facts.name == "qp" && problem.contacts[0].kind != ContactKind::kFrictionless) return;
   ++count.all;
-  SolveRequest request{.method = std::string(facts.name), .arithmetic = arithmetic};
-  request.options.limits = {.drives = 200, .pivots = 400, .bits = 20000};
+  const Request request{
+      .method = facts.name, .arithmetic = arithmetic, .limits = {.drives = 200, .pivots = 400, .bits = 20000}};
   try {
     const Solution solution = SolveIn(problem, request);
     if (solution.outcome() != Outcome::kSolved) return;
@@ -117,7 +117,6 @@ TEST_CASE("solve: a number that an arithmetic does not hold is refused by its pl
   };
   problem.A(1, 1) = PowerOfTen(309);
   CHECK(message(Arithmetic::kDouble).find("A[1][1]") == 0);
-  CHECK(message(Arithmetic::kLongDouble).find("A[1][1]") == 0);
   CHECK(message(Arithmetic::kExact).empty());
   problem.A(1, 1) = PowerOfTen(39);
   CHECK(message(Arithmetic::kFloat).find("A[1][1]") == 0);
@@ -125,9 +124,8 @@ TEST_CASE("solve: a number that an arithmetic does not hold is refused by its pl
   problem.A(1, 1) = 3;
   problem.b[0] = -PowerOfTen(-100);
   CHECK(message(Arithmetic::kFloat).find("b[0]") == 0);  // would be zero, and f = 0 a solution
-  problem.b[0] = PowerOfTen(-320);  // not a double, and near one that is a long double with all its digits
+  problem.b[0] = PowerOfTen(-320);                       // not a double
   CHECK(message(Arithmetic::kDouble).find("b[0]") == 0);
-  CHECK(message(Arithmetic::kLongDouble).find("b[0]") == 0);
   problem.b[0] = -1;
   problem.contacts[0].mu = PowerOfTen(400);
   CHECK(message(Arithmetic::kDouble).find("contacts[0].mu") == 0);
@@ -139,7 +137,7 @@ TEST_CASE("solve: a number that an arithmetic does not hold is refused by its pl
 TEST_CASE("solve: forces at the end of the range of doubles do not stop the fast method over rationals") {
   for (const int exponent : {-300, -303, -306}) {
     const ExactProblem problem = MakeProblem({-1, -1}, {{1, 0}, {0, PowerOfTen(exponent)}}, {-1, -1});
-    const SolveRequest request{.method = "fast"};
+    const Request request{.method = "fast"};
     const Solution solution = SolveIn(problem, request);
     CHECK(solution.outcome() == Outcome::kSolved);
     CHECK(FaultOf(problem, request, solution) == "");
@@ -167,10 +165,11 @@ TEST_CASE("solve: the method that an answer names outlives the request") {
       if (facts.name == "qp" && problem.contacts[0].kind != ContactKind::kFrictionless) continue;
       for (int a = 0; a < kArithmeticCount; ++a) {
         if (!facts.IsBuilt(problem.dimension, static_cast<Arithmetic>(a))) continue;
-        SolveRequest request{.method = std::string(facts.name), .arithmetic = static_cast<Arithmetic>(a)};
-        request.options.limits = {.drives = 200, .pivots = 400, .bits = 20000};
-        const Solution solution = SolveIn(problem, request);
-        request.method.assign(request.method.size(), '?');
+        std::string name(facts.name);
+        const Solution solution = SolveIn(problem, {.method = name,
+                                                    .arithmetic = static_cast<Arithmetic>(a),
+                                                    .limits = {.drives = 200, .pivots = 400, .bits = 20000}});
+        name.assign(name.size(), '?');
         INFO(facts.name << " " << kArithmeticNames[a] << " in dimension " << problem.dimension);
         std::visit([](const auto& answer) { CHECK(FindMethodFacts(answer.method) != nullptr); },
                    solution.answer);
@@ -184,7 +183,7 @@ TEST_CASE("solve: the method that an answer names outlives the request") {
 TEST_CASE("solve: auto ends in a solution and names the method") {
   const ExactProblem problem = ReferenceProblem();
   for (const Arithmetic arithmetic :
-       {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kLongDouble, Arithmetic::kExact}) {
+       {Arithmetic::kFloat, Arithmetic::kDouble, Arithmetic::kQuad, Arithmetic::kExact}) {
     const Solution solution = SolveIn(problem, {.arithmetic = arithmetic});
     CHECK(solution.outcome() == Outcome::kSolved);
     std::visit([](const auto& answer) { CHECK(FindMethodFacts(answer.method) != nullptr); }, solution.answer);
@@ -221,11 +220,11 @@ TEST_CASE(
     "solve: behind the cells of doubles stand the published algorithm, and complete driving where it loops") {
   const Dial beyond_doubles = {400, 400, 0};
   const ExactProblem loops = ReferenceProblem(), ends = MakeProblem({1}, {{2, 1}, {1, 3}}, {-1, 1});
-  REQUIRE(Solve(loops, "baraff").outcome == Outcome::kCycle);
-  REQUIRE(Solve(ends, "baraff").Solved());
+  REQUIRE(Solve(loops, {.method = "baraff"}).outcome == Outcome::kCycle);
+  REQUIRE(Solve(ends, {.method = "baraff"}).Solved());
   for (const auto& [problem, by] : {std::pair{loops, "complete"}, std::pair{ends, "baraff"}}) {
     const ExactProblem turned = Turned(problem, beyond_doubles);
-    const Answer<Rational> answer = Solve(turned, "fast");
+    const Answer<Rational> answer = Solve(turned, {.method = "fast"});
     REQUIRE(answer.Solved());
     CHECK(answer.method == "fast");
     CHECK(AnsweredBy(answer.method, answer.counters) == by);
@@ -235,16 +234,17 @@ TEST_CASE(
 
 TEST_CASE("solve: no solution is an outcome of those alone who prove it") {
   const ExactProblem problem = NoSolution();
-  const Answer<Rational> modes = Solve(problem, "enumerate");
+  const Answer<Rational> modes = Solve(problem, {.method = "enumerate"});
   CHECK(modes.outcome == Outcome::kNoSolution);
   CHECK(Name(modes.outcome) == "no-solution");
   CHECK(modes.f.size() == 0);
   CHECK(!modes.reason.empty());
-  for (const char* method : {"complete", "lemke"}) CHECK(Solve(problem, method).outcome == Outcome::kRay);
+  for (const char* method : {"complete", "lemke"})
+    CHECK(Solve(problem, {.method = method}).outcome == Outcome::kRay);
   const Answer<Rational> any = Solve(problem);
   CHECK(any.outcome == Outcome::kNoSolution);
   CHECK(any.method == "enumerate");
-  CHECK(any.ray == Solve(problem, "complete").ray);
+  CHECK(any.ray == Solve(problem, {.method = "complete"}).ray);
   CHECK(any.ray.size() == problem.rows());
 }
 
@@ -274,17 +274,15 @@ TEST_CASE("solve: forces that are none do not pass the gate as they are") {
 
 TEST_CASE("solve: a bound that is asked for is met or nothing is called solved") {
   const ContactProblem<double> problem = Rounded<double>(MakeProblem({1}, {{2, 1}, {1, 3}}, {-1, 1}));
-  CHECK(Solve(problem, "complete", {.residual = 1e-12}).residual() <= 1e-12);
-  CHECK(Solve(problem, "complete", {.residual = 1e-30}).outcome == Outcome::kUndecided);
+  CHECK(Solve(problem, {.method = "complete", .residual = 1e-12}).residual() <= 1e-12);
+  CHECK(Solve(problem, {.method = "complete", .residual = 1e-30}).outcome == Outcome::kUndecided);
 }
 
 TEST_CASE("solve: a run that is stopped is undecided and keeps its forces") {
   const std::atomic<bool> stop = true;
   const ExactProblem exact = ReferenceProblem();
-  SolveOptions options;
-  options.limits.stop = &stop;
   for (const char* method : {"baraff", "complete", "lemke"}) {
-    const Answer<Rational> answer = Solve(exact, method, options);
+    const Answer<Rational> answer = Solve(exact, {.method = method, .limits = {.stop = &stop}});
     CHECK(answer.outcome == Outcome::kUndecided);
     CHECK(answer.reason == kStopped);
   }

@@ -105,15 +105,13 @@ TEST_CASE("space: every problem in range is certified, under either law") {
   for (int index = 0; index < 150; ++index) {
     CAPTURE(index);
     const ExactProblem problem = RandomInSpace(1 + index % 3, index);
-    SpaceOptions options;
-    const ExactAnswer weak = SolveInSpace(problem, options);
+    const ExactAnswer weak = SolveInSpace(problem, {.law = FrictionLaw::kBaraff});
     REQUIRE(weak.outcome == Outcome::kSolved);
     CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    refined += ValueOf(weak.counters, "refinements") > 0;
+    refined += weak.counters[Counter::kRefinements] > 0;
     edges += static_cast<int>(std::count(weak.word.begin(), weak.word.end(), 'E'));
-    options.law = FrictionLaw::kCoulomb;
-    const ExactAnswer strict = SolveInSpace(problem, options);
+    const ExactAnswer strict = SolveInSpace(problem, {});
     REQUIRE(strict.outcome == Outcome::kSolved);
     CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
     CHECK(*strict.bound >= 1 - Rational(1, 1 << 20));
@@ -184,15 +182,13 @@ TEST_CASE("lemke in space: what solves the law on polygons, and what does not") 
 
 // It is where Newton's method begins; the gate judges what that finds.
 TEST_CASE("lemke in space: over doubles nearly all answers are right") {
-  LemkeOptions options;
-  options.cover = Cover::kUnits;
-  LemkeAlgorithm<double> lemke(options);
+  LemkeAlgorithm<double> lemke({}, Cover::kUnits);
   int solved = 0;
   for (int index = 0; index < 90; ++index) {
     CAPTURE(index);
     const ContactProblem<double> problem = As<double>(RandomInSpace(1 + index % 3, index));
     const std::vector<FrictionPolygon<double>> polygons(problem.contacts.size(), FrictionPolygon<double>(8));
-    const Verdict verdict = lemke.Run(problem, polygons);
+    const RunEnd<> verdict = lemke.Run(problem, polygons);
     if (verdict.outcome != Outcome::kSolved) continue;
     solved += PolygonErrorOf(problem, polygons, lemke.f(), lemke.a()) <= 1e-9;
   }
@@ -203,15 +199,12 @@ TEST_CASE("space: with Lemke's method every problem in range is certified, under
   for (int index = 0; index < 90; ++index) {
     CAPTURE(index);
     const ExactProblem problem = RandomInSpace(1 + index % 3, index);
-    SpaceOptions options;
-    options.engine = SpaceEngine::kLemke;
-    const ExactAnswer weak = SolveInSpace(problem, options);
+    const ExactAnswer weak = SolveInSpace(problem, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke);
     REQUIRE(weak.outcome == Outcome::kSolved);
     CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
     CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    CHECK(ValueOf(weak.counters, "stages") == 0);  // of complete driving
-    options.law = FrictionLaw::kCoulomb;
-    const ExactAnswer strict = SolveInSpace(problem, options);
+    CHECK(weak.counters[Counter::kStages] == 0);  // of complete driving
+    const ExactAnswer strict = SolveInSpace(problem, {}, SpaceEngine::kLemke);
     REQUIRE(strict.outcome == Outcome::kSolved);
     CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
   }
@@ -240,14 +233,12 @@ ExactProblem MixedInSpace(bool sliding, int index) {
 }
 
 TEST_CASE("space: Lemke's method with contacts of every kind") {
-  SpaceOptions options;
-  options.engine = SpaceEngine::kLemke;
   int slides = 0;
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
     const bool sliding = index % 2 == 1;
     const ExactProblem problem = MixedInSpace(sliding, index);
-    const ExactAnswer solution = SolveInSpace(problem, options);
+    const ExactAnswer solution = SolveInSpace(problem, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke);
     if (!sliding) REQUIRE(solution.outcome == Outcome::kSolved);
     if (solution.outcome != Outcome::kSolved) continue;
     slides += sliding;
@@ -281,17 +272,15 @@ TEST_CASE("space: modes are linear equations, free unknowns as guessed") {
 TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   ExactProblem wedge = OneContact(1, {-1, 0, 0});
   wedge.A = Matrix({{1, -1, 0}, {-1, 1, 0}, {0, 0, 1}});
-  const ExactAnswer stuck = SolveInSpace(wedge, {});
+  const ExactAnswer stuck = SolveInSpace(wedge, {.law = FrictionLaw::kBaraff});
   CHECK(stuck.outcome == Outcome::kRay);
   CHECK(stuck.ray.size() == 3);
-  SpaceOptions by_lemke;
-  by_lemke.engine = SpaceEngine::kLemke;
-  CHECK(SolveInSpace(wedge, by_lemke).outcome == Outcome::kRay);
+  CHECK(SolveInSpace(wedge, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke).outcome == Outcome::kRay);
   // Touching, it has forces that pull its friction against its slip: nothing without directions refutes it.
   CHECK(RefuteInSpace(wedge).end == EnumerationEnd::kOpen);
   CHECK(DecideExistence(wedge, {}).certificate.is_null());
   wedge.contacts[0].mu = Rational(1, 2);
-  const ExactAnswer solved = SolveInSpace(wedge, {});
+  const ExactAnswer solved = SolveInSpace(wedge, {.law = FrictionLaw::kBaraff});
   REQUIRE(solved.outcome == Outcome::kSolved);
   CHECK(solved.f == Vector({2, 1, 0}));
   CHECK(!DecideExistence(wedge, {}).certificate.is_null());
@@ -372,10 +361,8 @@ TEST_CASE("space: a solution out of range(A) is found near doubles, where paths 
   CHECK(!IsInRange(DeadNormal(0)));
   for (const FrictionLaw law : {FrictionLaw::kBaraff, FrictionLaw::kCoulomb}) {
     const ExactProblem problem = DeadNormal(0);
-    SpaceOptions options;
-    options.law = law;
-    CHECK(SolveInSpace(problem, options).outcome == Outcome::kRay);
-    const ExactAnswer near = SolveNearFast(problem, options);
+    CHECK(SolveInSpace(problem, {.law = law}).outcome == Outcome::kRay);
+    const ExactAnswer near = SolveNearFast(problem, {.law = law});
     REQUIRE(near.outcome == Outcome::kSolved);
     CHECK(!FindWeakViolation(problem, near.f));
     CHECK(CoulombBound(problem, near.f).value() > 1 - Rational(1, 1 << 20));
@@ -385,18 +372,17 @@ TEST_CASE("space: a solution out of range(A) is found near doubles, where paths 
           (law == FrictionLaw::kCoulomb ? "coulomb-solution" : "solution-exists"));
     CHECK(DecideExistence(DeadNormal(Rational(-1, 10)), {}, {}, law).certificate["claim"] == "no-solution");
   }
-  CHECK(SolveNearFast(DeadNormal(Rational(-1, 10)), {}).outcome == Outcome::kUndecided);
+  CHECK(SolveNearFast(DeadNormal(Rational(-1, 10)), {.law = FrictionLaw::kBaraff}).outcome ==
+        Outcome::kUndecided);
 }
 
 TEST_CASE("space: altered certificates are rejected") {
-  SpaceOptions options;
-  options.law = FrictionLaw::kCoulomb;
   ExactProblem problem;
   ExactAnswer solution;
   for (int index = 0; !solution.bound || *solution.bound == 0 || *solution.bound == 1;
        index += 2) {  // the first that slips
     problem = RandomInSpace(2, index);
-    solution = SolveInSpace(problem, options);
+    solution = SolveInSpace(problem, {});
   }
   const Json good = CoulombCertificate(problem, solution.f, *solution.bound);
   REQUIRE(CheckCertificate(good, "here").accepted);

@@ -55,7 +55,7 @@ class Gate(cli.TestCase):
             self.assertEqual(cell["runs"] + cell["refused"], 2, cell)
             self.assertEqual(cell["dimension"], 3 if cell["dial"].startswith("space-") else 2)
         self.assertEqual({cell["dial"] for cell in cells}, set(self.FAMILIES))
-        self.assertEqual({cell["arithmetic"] for cell in cells}, {"float", "double", "long-double", "quad", "filtered"})
+        self.assertEqual({cell["arithmetic"] for cell in cells}, {"float", "double", "quad", "filtered"})
         self.assertLessEqual({"auto", "fast", "complete", "lemke", "baraff"}, {cell["method"] for cell in cells})
         self.assertGreater(sum(cell["solved"] for cell in cells), 0.5 * sum(cell["runs"] for cell in cells))
         self.assertEqual(self.gate("--json").json(), first.json())

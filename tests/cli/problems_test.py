@@ -12,7 +12,7 @@ from fractions import Fraction
 import cli
 
 PROBLEMS = cli.ROOT / "tests" / "problems"
-FLOATING = ["float", "double", "long-double", "quad"]
+FLOATING = ["float", "double", "quad"]
 
 
 def problem_of(name):

@@ -115,7 +115,7 @@ class Solve(cli.TestCase):
                          "direction of slip free, proved")
 
     def test_rounded_arithmetics(self):
-        for arithmetic in ["float", "double", "long-double"]:
+        for arithmetic in ["float", "double"]:
             with self.subTest(arithmetic=arithmetic):
                 result = self.solve(self.file("p.json", CIRCLE), "--arithmetic", arithmetic)
                 self.assertEqual((result["outcome"], result["arithmetic"]), ("solved", arithmetic))

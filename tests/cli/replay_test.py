@@ -193,7 +193,7 @@ class Space(cli.TestCase):
             self.assertAlmostEqual(x, y, places=9)
 
     def test_sets_and_recorded_directions_of_every_step(self):
-        for arithmetic in ["double", "long-double"]:
+        for arithmetic in ["double", "quad"]:
             replay = self.replay(self.file("p.json", CIRCLE), "--arithmetic", arithmetic)
             normal, x, y = replay["pivots"]
             self.assertEqual([p["driven"] for p in replay["pivots"]], ["N1", "F1x", "F1y"])

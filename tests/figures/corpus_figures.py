@@ -166,7 +166,7 @@ def wrong_in_doubles(program):
 def methods_built(program):
     """Where each method is built."""
     methods = program.json("methods")
-    names = ("float", "double", "long-double", "quad", "interval", "filtered", "exact")
+    names = ("float", "double", "quad", "interval", "filtered", "exact")
     rows = [[f"`{m['name']}`", *(", ".join(where for where in ("plane", "space") if name in m[where]) or "-"
                                 for name in names)] for m in methods]
     refused = 2 * len(names) * len(methods) - sum(len(m["plane"]) + len(m["space"]) for m in methods)

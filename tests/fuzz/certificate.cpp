@@ -89,7 +89,7 @@ const std::map<std::string, Contradicts>& Contradictions() {
 // Under every policy that a cycle is claimed of.
 bool AllCycle(const ExactProblem& problem, const Json& certificate) {
   for (const Policy& policy : CertifiedPolicies(certificate)) {
-    if (RunExact(problem, {policy, {}, {}}).verdict.outcome != Outcome::kCycle) return false;
+    if (RunExact(problem, {.policy = policy}).verdict.outcome != Outcome::kCycle) return false;
   }
   return true;
 }

@@ -69,9 +69,9 @@ void TakeMethods(const ProblemFile& file, const std::string& source) {
       Wanted wanted;
       wanted.method = facts.name;
       wanted.arithmetic = Name(static_cast<Arithmetic>(a));
-      wanted.options.limits = kLimits;
+      wanted.request.limits = kLimits;
       Unrefused([&] {
-        SolveRequest request = RequestOf(wanted, file.problem, source);
+        Request request = RequestOf(wanted, file.problem, source);
         request.factors = file.factors ? &*file.factors : nullptr;
         const Solution solution = SolveAsked(file.problem, request, source);
         RequireJson(SolutionToJson(solution, file.problem.dimension),

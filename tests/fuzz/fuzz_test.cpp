@@ -204,7 +204,7 @@ TEST_CASE("judge: forces that are no solution are not called one") {
       problem.b = Vector({-1, 1, 0});
     }
     for (const Arithmetic arithmetic : {Arithmetic::kExact, Arithmetic::kDouble, Arithmetic::kFloat}) {
-      const SolveRequest request{.method = "complete", .arithmetic = arithmetic};
+      const Request request{.method = "complete", .arithmetic = arithmetic};
       Solution solution = SolveIn(problem, request);
       CAPTURE(dimension, Name(arithmetic));
       CHECK(FaultOf(problem, request, solution).empty());

@@ -41,8 +41,8 @@ std::vector<Combination> CombinationsIn(int dimension) {
   return all;
 }
 
-SolveOptions SomeOptions(Bytes& bytes) {
-  SolveOptions options;
+Request SomeOptions(Bytes& bytes) {
+  Request options;
   options.limits = kLimits;
   const int policy = bytes.Integer(0, static_cast<int>(PlanarGrid().size()) - 1);
   if (policy > 0) options.policy = PlanarGrid()[static_cast<std::size_t>(policy)];
@@ -62,8 +62,10 @@ void RequireTheorem(const ExactProblem& problem, const Combination& c, const Sol
                  fmt::format("{} ends in {} where a solution is certain", c.method, Name(outcome)));
 }
 
-bool TakesProblem(const ExactProblem& problem, const SolveOptions& options, const Combination& c) {
-  const SolveRequest request{.method = std::string(c.method), .arithmetic = c.arithmetic, .options = options};
+bool TakesProblem(const ExactProblem& problem, const Request& options, const Combination& c) {
+  Request request = options;
+  request.method = c.method;
+  request.arithmetic = c.arithmetic;
   const auto solution = Unrefused([&] { return SolveIn(problem, request); });
   if (!solution) return false;  // out of range, or a kind or reading that the method does not have
   const std::string fault = testing::FaultOf(problem, request, *solution);
@@ -78,7 +80,7 @@ bool TakesProblem(const ExactProblem& problem, const SolveOptions& options, cons
 bool FuzzSolve(std::string_view input) {
   Bytes bytes(input);
   const int choice = bytes.Integer(0, 255);
-  const SolveOptions options = SomeOptions(bytes);
+  const Request options = SomeOptions(bytes);
   const ExactProblem problem = ExtremeProblem(bytes);
   const std::vector<Combination> all = CombinationsIn(problem.dimension);
   if (choice != 0) return TakesProblem(problem, options, all[static_cast<std::size_t>(choice) % all.size()]);

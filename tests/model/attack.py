@@ -55,9 +55,9 @@ from pathlib import Path
 from drawn_problems import Draw, simpler, written
 from judged_forces import EXCUSED, SLACK, USUAL, Judge, Numbers
 
-METHODS = ["auto", "fast", "complete", "lemke", "admm", "proximal", "newton-bodies", "baraff"]
+METHODS = ["auto", "fast", "complete", "lemke", "proximal", "newton-bodies", "baraff"]
 ARITHMETICS = ["double", "float"]
-SELDOM = ["quad", "long-double", "exact"]  # of few problems
+SELDOM = ["quad", "exact"]  # of few problems
 GENERATORS = ["integers", "psd", "small", "near-degenerate", "duplicates", "conditioned", "bodies", "exponential",
               "scenes", "one-body", "bilateral", "sliding", "space", "exceptional", "steps"]
 BATCH = 100

@@ -112,15 +112,15 @@ inline Truth TruthOf(const ExactProblem& problem) {
   return {solved, solved};
 }
 
-inline SolveRequest RequestFor(std::string_view method, Arithmetic arithmetic, FrictionLaw law) {
-  SolveRequest request{.method = std::string(method), .arithmetic = arithmetic};
-  request.options.law = law;
-  request.options.limits.drives = request.options.limits.pivots = 1000;
+inline Request RequestFor(std::string_view method, Arithmetic arithmetic, FrictionLaw law) {
+  Request request{.method = method, .arithmetic = arithmetic};
+  request.law = law;
+  request.limits.drives = request.limits.pivots = 1000;
   return request;
 }
 
 // What one answer says that is false; empty if nothing.
-inline std::string FaultOfAnswer(const ExactProblem& problem, const Truth& truth, const SolveRequest& request,
+inline std::string FaultOfAnswer(const ExactProblem& problem, const Truth& truth, const Request& request,
                                  const Solution& solution) {
   const Outcome outcome = solution.outcome();
   const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
@@ -160,7 +160,7 @@ inline std::string FaultIn(const ExactProblem& problem) {
       for (const FrictionLaw law : {FrictionLaw::kCoulomb, FrictionLaw::kBaraff}) {
         if (law == FrictionLaw::kBaraff && (problem.dimension == 2 || method != "baraff")) continue;
         if (law == FrictionLaw::kCoulomb && problem.dimension == 3 && method == "baraff") continue;
-        const SolveRequest request = RequestFor(method, arithmetic, law);
+        const Request request = RequestFor(method, arithmetic, law);
         try {
           const Solution solution = SolveIn(problem, request);
           const std::string fault = FaultOfAnswer(problem, truth, request, solution);

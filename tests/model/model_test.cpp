@@ -42,7 +42,7 @@ TEST_CASE("model: an answer that proves a falsehood, or is exact of another prob
   const Truth truth = TruthOf(problem);
   REQUIRE(truth.is_known);
   REQUIRE(truth.solvable);
-  const SolveRequest request = RequestFor("enumerate", Arithmetic::kDouble, FrictionLaw::kCoulomb);
+  const Request request = RequestFor("enumerate", Arithmetic::kDouble, FrictionLaw::kCoulomb);
   ExactAnswer none;
   none.outcome = Outcome::kNoSolution;
   CHECK(KindOf(FaultOfAnswer(problem, truth, request, {.answer = none})) == "falsehood");

@@ -271,7 +271,7 @@ TEST_CASE("simulate in space: a wall pushed at the top moves without A as with i
   const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.InFactors(0));
   REQUIRE(dense.Solved());
   REQUIRE(sparse.Solved());
-  CHECK(std::pair(ValueOf(dense.counters, "sparse"), ValueOf(sparse.counters, "sparse")) ==
+  CHECK(std::pair(dense.counters[Counter::kSparse], sparse.counters[Counter::kSparse]) ==
         std::pair<std::int64_t, std::int64_t>(0, 1));
   const auto p = BodyAccelerations(model, {dense.f}), q = BodyAccelerations(model, {sparse.f});
   for (std::size_t i = 0; i < p.size(); ++i) CHECK((p[i] - q[i]).norm() < 1e-4);

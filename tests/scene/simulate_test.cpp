@@ -197,8 +197,8 @@ TEST_CASE("simulate: without friction a problem has one answer, in the plane, in
     REQUIRE((planar.Solved() && spatial.Solved() && sparse.Solved()));
     CHECK(planar.f == spatial.f);
     CHECK((planar.f - sparse.f).norm() < 1e-6 * (1 + planar.f.norm()));
-    CHECK(ValueOf(planar.counters, "sparse") + ValueOf(spatial.counters, "sparse") == 0);
-    CHECK(ValueOf(sparse.counters, "sparse") == 1);
+    CHECK(planar.counters[Counter::kSparse] + spatial.counters[Counter::kSparse] == 0);
+    CHECK(sparse.counters[Counter::kSparse] == 1);
   }
 }
 

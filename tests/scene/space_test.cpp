@@ -340,9 +340,7 @@ SolvedInSpace SolveScene(const SceneInSpace<Rational>& scene) {
   SolvedInSpace solved;
   solved.model = Assemble(scene, FindContacts(scene));
   for (std::size_t i = 0; i < solved.model.islands.size(); ++i) {
-    SpaceOptions options;
-    options.law = FrictionLaw::kCoulomb;
-    const ExactAnswer solution = SolveInSpace(solved.model.Problem(i), options);
+    const ExactAnswer solution = SolveInSpace(solved.model.Problem(i), {});
     REQUIRE(solution.outcome == Outcome::kSolved);
     solved.f.push_back(solution.f);
     solved.bound = std::min(solved.bound, *solution.bound);

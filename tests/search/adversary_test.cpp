@@ -190,7 +190,8 @@ TEST_CASE(
         REQUIRE(o.objective->exact(trial) == mine.worth.value);
       }
       for (const Assessed& loop : first.loops)
-        REQUIRE(RunExact(ExactOf(loop.candidate), {o.policy, {}, o.limits}).verdict.outcome == Outcome::kCycle);
+        REQUIRE(RunExact(ExactOf(loop.candidate), {.policy = o.policy, .limits = o.limits}).verdict.outcome ==
+                Outcome::kCycle);
     }
   }
 }

@@ -88,7 +88,7 @@ std::set<std::string> KindsKept(const UnitResult& result) {
 // Whose certified signs leave everything to rationals, where the test's own run is.
 ExactMethods WithoutSigns() {
   ExactMethods methods;
-  methods.filtered = [](const ExactProblem&, const PublishedOptions&, const Rungs& rungs) {
+  methods.filtered = [](const ExactProblem&, const Request&, const Rungs& rungs) {
     OnRung filtered;
     filtered.verdict.reason = kUnsureSign;
     filtered.rung = rungs.last;
@@ -100,15 +100,15 @@ ExactMethods WithoutSigns() {
 // A method that answers in this outcome whatever the problem.
 ExactMethods PublishedEndsIn(Outcome outcome) {
   ExactMethods methods = WithoutSigns();
-  methods.published = [outcome](const ExactProblem& problem, const PublishedOptions& options) {
-    ExactRun run = RunExact(problem, options);
+  methods.published = [outcome](const ExactProblem& problem, const Request& request) {
+    ExactRun run = RunExact(problem, request);
     run.verdict.outcome = outcome;
     return run;
   };
   return methods;
 }
 
-ExactRun CycleOfTwo(const PublishedOptions& options) { return RunExact(ReferenceProblem(), options); }
+ExactRun CycleOfTwo(const Request& request) { return RunExact(ReferenceProblem(), request); }
 
 TEST_CASE("alarms: none rings with right solvers") {
   const UnitResult result = RunWith(Audited(), {});
@@ -129,9 +129,8 @@ TEST_CASE("alarms: a filtered run that ends otherwise than over rationals is a g
     for (const bool outcome : {true, false}) {  // or another number of steps
       UnitSolvers solvers;
       std::int64_t decided = 0;
-      solvers.exact.filtered = [&](const ExactProblem& problem, const PublishedOptions& options,
-                                   const Rungs& rungs) {
-        OnRung filtered = RunPublishedFiltered(problem, options, rungs);
+      solvers.exact.filtered = [&](const ExactProblem& problem, const Request& request, const Rungs& rungs) {
+        OnRung filtered = RunPublishedFiltered(problem, request, rungs);
         if (filtered.verdict.outcome == Outcome::kUndecided) return filtered;
         ++decided;
         if (outcome) {
@@ -183,9 +182,9 @@ TEST_CASE("alarms: an audit that ends otherwise than doubles said is counted as 
   for (const int every : {1, 3}) {
     int calls = 0, wrong = 0;
     UnitSolvers solvers;
-    solvers.exact.published = [&](const ExactProblem& problem, const PublishedOptions& options) {
-      ExactRun run = RunExact(problem, options);
-      if (options.policy != Policy{} || ++calls % every != 0) return run;  // not the second look at a safe one
+    solvers.exact.published = [&](const ExactProblem& problem, const Request& request) {
+      ExactRun run = RunExact(problem, request);
+      if (request.policy != Policy{} || ++calls % every != 0) return run;  // not the second look at a safe one
       wrong += run.verdict.outcome == Outcome::kSolved;
       run.verdict.outcome = Outcome::kRay;
       return run;
@@ -337,8 +336,8 @@ std::vector<WrongMethod> WrongMethods() {
     return run;
   };
   wrong[5].alarm = "baraff-wrong";
-  wrong[5].methods.published = [](const ExactProblem& problem, const PublishedOptions& options) {
-    ExactRun run = RunExact(problem, options);
+  wrong[5].methods.published = [](const ExactProblem& problem, const Request& request) {
+    ExactRun run = RunExact(problem, request);
     run.state.f[0] = -1;
     return run;
   };
@@ -399,8 +398,8 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
   CHECK(Met(open, kDisagreementOfMethods) == 0);
   CHECK(open.record.existence.at(2).problems == kTried);
   CHECK(open.record.existence.at(2).solved == 0);
-  loop.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
-    InexactAnswer run = RunIntervalsInSpace(problem, options);
+  loop.exact.published_in_space = [](const ExactProblem& problem, const Request& request) {
+    InexactAnswer run = RunIntervalsInSpace(problem, request);
     run.outcome = Outcome::kCycle;
     return run;
   };
@@ -408,8 +407,8 @@ TEST_CASE("alarms: in space wrong runs, wrong forces and a missing solution are 
   CHECK(OnlyTally(looping).misjudged == OnlyTally(looping).audited);
   CHECK(Met(looping, "cycle") == kTried);
   UnitSolvers nothing;
-  nothing.exact.published_in_space = [](const ExactProblem& problem, const PublishedOptions& options) {
-    InexactAnswer run = RunIntervalsInSpace(problem, options);
+  nothing.exact.published_in_space = [](const ExactProblem& problem, const Request& request) {
+    InexactAnswer run = RunIntervalsInSpace(problem, request);
     run.outcome = Outcome::kUndecided;
     return run;
   };
@@ -466,8 +465,8 @@ TEST_CASE("alarms: a grave finding is kept in a unit that is full, others are no
     if (runs == 20) return CompleteEndsIn(Outcome::kLimit, problem, limits);
     return runs == 30 ? CompleteEndsIn(Outcome::kRay, problem, limits) : RunComplete(problem, limits);
   };
-  solvers.exact.published = [&runs](const ExactProblem& problem, const PublishedOptions& options) {
-    ExactRun run = RunExact(problem, options);
+  solvers.exact.published = [&runs](const ExactProblem& problem, const Request& request) {
+    ExactRun run = RunExact(problem, request);
     if (runs == 10) run.verdict.outcome = Outcome::kLimit;  // a second kind that is not grave
     return run;
   };
@@ -485,7 +484,7 @@ TEST_CASE("alarms: a grave finding is kept in a unit that is full, others are no
 
 ExactMethods CyclesEverywhere(std::optional<bool> safe) {
   ExactMethods methods;
-  methods.published = [](const ExactProblem&, const PublishedOptions& options) { return CycleOfTwo(options); };
+  methods.published = [](const ExactProblem&, const Request& request) { return CycleOfTwo(request); };
   methods.is_safe = [safe](const ExactProblem&) { return safe; };
   return methods;
 }
@@ -506,11 +505,11 @@ TEST_CASE("alarms: a cycle of a safe problem has a grave kind and signature of i
 // Gives something up under this value of the switch only.
 ExactMethods GivesUpUnder(Apex apex, std::vector<Policy>& asked) {
   ExactMethods methods = WithoutSigns();
-  methods.published = [apex, &asked](const ExactProblem& problem, const PublishedOptions& options) {
-    asked.push_back(options.policy);
-    ExactRun run = RunExact(problem, options);
+  methods.published = [apex, &asked](const ExactProblem& problem, const Request& request) {
+    asked.push_back(request.policy);
+    ExactRun run = RunExact(problem, request);
     run.trace.pivots.clear();  // and there is no tie
-    run.verdict.statistics.give_ups = options.policy.apex == apex;
+    run.verdict.statistics.give_ups = request.policy.apex == apex;
     return run;
   };
   methods.is_safe = [](const ExactProblem&) { return true; };
@@ -556,10 +555,10 @@ TEST_CASE("alarms: with ties a safe problem may give up: counted, and no finding
   const ExactProblem twins = MakeProblem({1, 1}, {{1, 0, 1, 0}, {0, 1, 0, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}},
                                          {-1, Rational(1, 2), -1, Rational(1, 2)});
   ExactMethods methods;
-  methods.published = [&twins](const ExactProblem& problem, const PublishedOptions& options) {
-    ExactRun run = RunExact(problem, options);
-    if (options.policy.apex != Apex::kSuspended) return run;
-    run = RunExact(twins, options);
+  methods.published = [&twins](const ExactProblem& problem, const Request& request) {
+    ExactRun run = RunExact(problem, request);
+    if (request.policy.apex != Apex::kSuspended) return run;
+    run = RunExact(twins, request);
     run.verdict.statistics.give_ups = 1;
     return run;
   };

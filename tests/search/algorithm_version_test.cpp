@@ -86,7 +86,7 @@ std::string ExactPaths(const ExactProblem& problem) {
   ExactAnswer complete = RunComplete(problem, Limits{});
   const ExactAnswer lemke = RunLemke(problem, Limits{});
   std::string text =
-      fmt::format("{} {}\n", ValueOf(complete.counters, "pieces"), ValueOf(lemke.counters, "pivots"));
+      fmt::format("{} {}\n", complete.counters[Counter::kPieces], lemke.counters[Counter::kPivots]);
   // Where complete driving does not solve it, forces are those of what sliding contacts leave.
   const Reduction<Rational> reduction(problem);
   if (!complete.Solved() && reduction.end() == ReductionEnd::kReduced)

@@ -60,9 +60,9 @@ bool EndsAlike(const Batch<Rows>& batch, int i, const Small<Rows>& problem, cons
 
 template <int Rows>
 LaneComparison CompareLanes(InstructionSet set, const std::vector<Small<Rows>>& problems) {
-  const PublishedOptions options;
-  PublishedAlgorithm<double, Rows> algorithm(options);
-  const auto batch = std::make_unique<Batch<Rows>>(set, options);
+  const Request request;
+  PublishedAlgorithm<double, Rows> algorithm(request);
+  const auto batch = std::make_unique<Batch<Rows>>(set, request);
   LaneComparison c;
   const int size = static_cast<int>(problems.size());
   for (int first = 0; first < size; first += kBlockProblems) {
@@ -187,7 +187,7 @@ TEMPLATE_TEST_CASE_SIG("batch: problems drawn in lanes are those of the generato
                        ((int Rows), Rows), 4, 6, 8) {
   constexpr int kCount = 253;
   for (const InstructionSet set : SetsOfLanes()) {
-    const auto batch = std::make_unique<Batch<Rows>>(set, PublishedOptions{});
+    const auto batch = std::make_unique<Batch<Rows>>(set, Request{});
     for (const GeneratorRow& row : Generators()) {
       if (!IsDrawnInLanes(row.id)) continue;
       CAPTURE(row.name, Name(set));
@@ -237,22 +237,22 @@ TEST_CASE("batch: a unit leaves the same record and findings with every instruct
 }
 
 TEST_CASE("batch: other readings, small budgets and what can be stopped are not batched") {
-  PublishedOptions options;
-  CHECK(IsBatched(options));
-  options.limits = Campaign().limits;
-  CHECK(IsBatched(options));
-  options.policy.give_up = GiveUp::kSecond;
-  CHECK_FALSE(IsBatched(options));
-  options.policy = {};
-  options.limits.drives = 3;
-  CHECK_FALSE(IsBatched(options));
-  options.limits = {};
-  options.limits.pivots = 50;
-  CHECK_FALSE(IsBatched(options));
-  options.limits = {};
+  Request request;
+  CHECK(IsBatched(request));
+  request.limits = Campaign().limits;
+  CHECK(IsBatched(request));
+  request.policy.give_up = GiveUp::kSecond;
+  CHECK_FALSE(IsBatched(request));
+  request.policy = {};
+  request.limits.drives = 3;
+  CHECK_FALSE(IsBatched(request));
+  request.limits = {};
+  request.limits.pivots = 50;
+  CHECK_FALSE(IsBatched(request));
+  request.limits = {};
   const std::atomic<bool> stop = false;
-  options.limits.stop = &stop;
-  CHECK_FALSE(IsBatched(options));
+  request.limits.stop = &stop;
+  CHECK_FALSE(IsBatched(request));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST_CASE("bench: no folds without friction, some with much of it") {
     if (index % 8 != 0 && index % 8 != 6) continue;
     const ExactAnswer run = RunComplete(MakeBenchProblem({}, 4, 1, index).exact, {});
     REQUIRE(run.Solved());
-    (index % 8 == 0 ? folds_without : folds_with_much) += ValueOf(run.counters, "folds") > 0;
+    (index % 8 == 0 ? folds_without : folds_with_much) += run.counters[Counter::kFolds] > 0;
   }
   CHECK(folds_without == 0);
   CHECK(folds_with_much > 5);
@@ -179,11 +179,11 @@ TEST_CASE("bench: stacks and walls of equal masses are solved by guesses, though
     for (int seed = 0; seed < 20; ++seed) {
       Choices choices(seed);
       const auto problem = wall ? WallProblem(5, 4, {}, choices) : StackProblem(10, {}, choices);
-      const auto answer = Solve(problem, "fast");
+      const auto answer = Solve(problem, {.method = "fast"});
       CHECK(answer.Solved());
-      const FastVerdict verdict = solver.Run(problem);
+      const RunEnd<> verdict = solver.Run(problem);
       CHECK(verdict.outcome == Outcome::kSolved);
-      driven += verdict.statistics.published > 0;
+      driven += verdict.statistics[Counter::kPublished] > 0;
     }
     CHECK(driven <= 1);  // of 20; where a singular M is given up, 4 stacks and 20 walls
   }

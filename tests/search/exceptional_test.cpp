@@ -80,8 +80,7 @@ TEST_CASE("exceptional: there is a solution, of forces that stay bounded") {
     for (std::uint64_t index = 0; index < 6; ++index) {
       CAPTURE(contacts, index);
       const DrawnExceptional made = MakeExceptionalProblem(contacts, index);
-      const ExactAnswer answer =
-          SolveExactly(made.problem, {.method = "complete", .options = {.law = FrictionLaw::kCoulomb}});
+      const ExactAnswer answer = SolveExactly(made.problem, {.method = "complete"});
       REQUIRE(answer.Solved());
       for (const Rational& force : answer.f) CHECK(abs(force) < 1000);
     }

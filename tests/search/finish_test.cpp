@@ -27,7 +27,7 @@ bool Never() { return false; }
 
 // As a unit leaves it.
 Finding FoundAs(const ExactProblem& problem, const std::string& kind, const std::string& policy = "paper") {
-  const ExactRun run = RunExact(problem, {ParsePolicy(policy), {}, kBudget});
+  const ExactRun run = RunExact(problem, {.policy = ParsePolicy(policy), .limits = kBudget});
   ProblemFile file;
   file.name = "found";
   file.problem = problem;

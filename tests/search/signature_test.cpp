@@ -16,11 +16,11 @@ using namespace testing;
 using Catch::Contains;
 
 std::string SignatureUnder(const ExactProblem& problem, const std::string& policy) {
-  return Signature(problem, RunExact(problem, {ParsePolicy(policy), {}, {}}));
+  return Signature(problem, RunExact(problem, {.policy = ParsePolicy(policy)}));
 }
 
 std::string WordUnder(const ExactProblem& problem, const std::string& policy) {
-  return LoopWord(problem, RunExact(problem, {ParsePolicy(policy), {}, {}}));
+  return LoopWord(problem, RunExact(problem, {.policy = ParsePolicy(policy)}));
 }
 
 // visit(problem) for the reference problem and random ones, all of which cycle.
@@ -82,7 +82,7 @@ TEST_CASE("signature: any order of contacts does not change it where the scan do
   int loops = 0;
   ForEachLoop([&loops](const ExactProblem& problem) {
     const std::string policy = "scan=most-violated";
-    if (RunExact(problem, {ParsePolicy(policy), {}, {}}).verdict.outcome != Outcome::kCycle) return;
+    if (RunExact(problem, {.policy = ParsePolicy(policy)}).verdict.outcome != Outcome::kCycle) return;
     ++loops;
     CHECK(WordUnder(Reversed(problem), policy) == WordUnder(problem, policy));
     CHECK(SignatureUnder(Reversed(problem), policy) == SignatureUnder(problem, policy));

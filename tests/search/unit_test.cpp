@@ -267,7 +267,7 @@ TEST_CASE("unit: an exact run of a finding's problem gives what the finding says
       CHECK(ProblemToJson(file.problem) == ProblemToJson(problem));
       CHECK(ToJson(file).dump() == finding.problem);
       const Policy policy = ParsePolicy(finding.policy);
-      const ExactRun run = RunExact(problem, {policy, {}, campaign.limits});
+      const ExactRun run = RunExact(problem, {.policy = policy, .limits = campaign.limits});
       CHECK(Name(run.verdict.outcome) == finding.exact_outcome);
       if (finding.kind == finding.exact_outcome) {
         const std::string suffix = policy == Policy{} ? "" : "@" + finding.policy;
@@ -413,7 +413,8 @@ TEST_CASE("unit: in space loops are proved over intervals, minimized as such, an
   const ExactProblem small = ParseProblem(finished.minimized, "minimized").problem;
   CHECK(small.dimension == 3);
   CHECK(SimplicityOf(small) < SimplicityOf(ParseProblem(finished.problem, "found").problem));
-  const auto run = RunIntervalsInSpace(small, {ParsePolicy(finished.policy), {}, campaign.limits});
+  const auto run =
+      RunIntervalsInSpace(small, {.policy = ParsePolicy(finished.policy), .limits = campaign.limits});
   CHECK(run.outcome == Outcome::kCycle);
   CHECK(finished.signature.ends_with(fmt::format("-{}d", run.period)));
   for (const std::string& solution : {finished.existence, finished.minimized_existence}) {

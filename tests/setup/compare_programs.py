@@ -22,7 +22,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 METHODS = ("baraff", "complete", "lemke", "enumerate", "fast")
-ARITHMETICS = ("exact", "double", "long-double", "float", "quad", "interval", "filtered")
+ARITHMETICS = ("exact", "double", "float", "quad", "interval", "filtered")
 CLAIMS = ("solution-exists", "symmetric", "psd", "in-range", "h", "safe", "cycle")
 POLICIES = ("paper", "resume=round", "ties=contacts,apex=suspended", "scan=most-violated,file=yes", "give-up=second")
 SECONDS = 60

@@ -96,13 +96,11 @@ TEST_CASE("body newton: from a solution it factors nothing, and stays there") {
   int solved = 0;
   for (int repeat = 0; repeat < 100; ++repeat) {
     const FactoredProblem<double> problem = draw.Problem(2 + repeat % 2, {ContactKind::kStatic});
-    BodyNewtonOptions options;
-    options.aim = 1e-11;
-    method.options() = options;
+    method.aim = 1e-11;
     if (method.Run(problem).outcome != Outcome::kSolved || GateErrorOf(problem, method.f()) > 1e-12) continue;
     ++solved;
     const Eigen::VectorXd f = method.f();
-    const BodyNewtonVerdict again = method.Run(problem, &f);
+    const RunEnd<> again = method.Run(problem, &f);
     CHECK(again.outcome == Outcome::kSolved);
     CHECK(again.statistics.factorizations == 0);
     CHECK(method.f() == f);
@@ -120,7 +118,7 @@ TEST_CASE("body newton: answers do not depend on the runs before") {
   BodyNewton<double> used;
   for (const auto& problem : problems) {
     BodyNewton<double> fresh;
-    const BodyNewtonVerdict one = used.Run(problem), other = fresh.Run(problem);
+    const RunEnd<> one = used.Run(problem), other = fresh.Run(problem);
     CHECK(one.statistics == other.statistics);
     CHECK(used.f() == fresh.f());
   }
@@ -159,9 +157,9 @@ TEST_CASE("body newton: a contact in other units is the same contact") {
     const Eigen::MatrixXd J = problem.A.J();
     const FactoredProblem<double> scaled = InFactors(problem.dimension, problem.contacts, D.asDiagonal() * J,
                                                      problem.w, D.cwiseProduct(problem.c));
-    const BodyNewtonVerdict one = method.Run(problem);
+    const RunEnd<> one = method.Run(problem);
     const Eigen::VectorXd f = method.f();
-    const BodyNewtonVerdict other = method.Run(scaled);
+    const RunEnd<> other = method.Run(scaled);
     CHECK(one.outcome == other.outcome);
     CHECK(one.statistics == other.statistics);
     CHECK(f == D.cwiseProduct(method.f()));
@@ -174,7 +172,7 @@ TEST_CASE("body newton: without a solution it is undecided, and says why") {
       InFactors(2, {{ContactKind::kFrictionless, 0.0, {0, 0}}}, Eigen::MatrixXd::Zero(1, 1),
                 Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, -1));
   BodyNewton<double> method;
-  const BodyNewtonVerdict verdict = method.Run(problem);
+  const RunEnd<> verdict = method.Run(problem);
   CHECK(verdict.outcome == Outcome::kUndecided);
   CHECK(!verdict.reason.empty());
   problem.c[0] = problem.b[0] = 1;
@@ -188,11 +186,11 @@ TEST_CASE("body newton: stopped, it tells the best forces so far, of a start tha
                 Eigen::VectorXd::Constant(1, -2), Eigen::VectorXd::Zero(1));
   const std::atomic<bool> stop = true;
   BodyNewton<double> method;
-  method.options().limits.stop = &stop;
-  BodyNewtonVerdict verdict = method.Run(problem);
+  method.request().limits.stop = &stop;
+  RunEnd<> verdict = method.Run(problem);
   CHECK(verdict.outcome == Outcome::kUndecided);
   CHECK(verdict.reason == kStopped);
-  CHECK(verdict.statistics.factorizations == 0);
+  CHECK(verdict.statistics[Counter::kFactorizations] == 0);
   CHECK(method.f()[0] == 0);
   const Eigen::VectorXd near = Eigen::VectorXd::Constant(1, 2 + 1e-9);
   verdict = method.Run(problem, &near);

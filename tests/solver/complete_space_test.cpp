@@ -33,7 +33,7 @@ struct SpacePiece {
 };
 
 struct SpaceRun {
-  CompleteVerdict verdict;
+  RunEnd<> verdict;
   std::vector<SpacePiece> path;
   std::int64_t most_pieces = 0;
   ExactVector f, ray;
@@ -257,9 +257,9 @@ void CheckPath(const ExactProblem& problem, const Polygons& polygons, const Spac
     CHECK(piece.s >= 0);
     counts.flat += determinant == 0;
   }
-  counts.folds += run.verdict.statistics.folds > 0;
-  counts.descents += run.verdict.statistics.descents > 0;
-  counts.ties += run.verdict.statistics.ties > 0;
+  counts.folds += run.verdict.statistics[Counter::kFolds] > 0;
+  counts.descents += run.verdict.statistics[Counter::kDescents] > 0;
+  counts.ties += run.verdict.statistics[Counter::kTies] > 0;
 }
 
 // Nodes are left upward at index +1 and downward at index -1.
@@ -295,7 +295,7 @@ void CheckSolved(const ExactProblem& problem, const Polygons& polygons, PathCoun
     cells_of_stages += words * (rough ? 1 + 2 * polygons[i].sides() + 1 : 1);
     words *= rough ? 2 * polygons[i].sides() + 2 : 2;
   }
-  CHECK(run.verdict.statistics.pieces <= cells_of_stages);
+  CHECK(run.verdict.statistics[Counter::kPieces] <= cells_of_stages);
   CHECK(run.most_pieces == cells_of_stages);
 }
 
@@ -429,8 +429,8 @@ TEST_CASE("space: ties are told as a small perturbation of b tells them") {
     const ExactProblem problem = RandomInSpace(StaticContacts(n, choices), 1 + index % 6, 1, false, choices);
     const Polygons polygons = AllWith(problem, index % 2 == 0 ? 8 : 4);
     const SpaceRun symbolic = RunSpace(problem, polygons), real = RunSpace(PerturbedInSpace(problem), polygons);
-    tied += symbolic.verdict.statistics.ties > 0;
-    CHECK(real.verdict.statistics.ties == 0);
+    tied += symbolic.verdict.statistics[Counter::kTies] > 0;
+    CHECK(real.verdict.statistics[Counter::kTies] == 0);
     REQUIRE(symbolic.path.size() == real.path.size());
     for (std::size_t k = 0; k < real.path.size(); ++k) {
       CHECK(symbolic.path[k].word == real.path[k].word);
@@ -565,10 +565,10 @@ TEST_CASE("space: a budget ends the run") {
   Choices choices(1);
   const ExactProblem problem = RandomInSpace(StaticContacts(3, choices), 10, 1000, true, choices);
   Driving driving;
-  driving.options().limits.pivots = 2;
-  const CompleteVerdict verdict = driving.Run(problem, AllWith(problem, 8));
+  driving.request().limits.pivots = 2;
+  const RunEnd<> verdict = driving.Run(problem, AllWith(problem, 8));
   CHECK(verdict.outcome == Outcome::kLimit);
-  CHECK(verdict.statistics.pieces == 2);
+  CHECK(verdict.statistics[Counter::kPieces] == 2);
 }
 
 TEST_CASE("space: doubles take the exact path, or are undecided") {
@@ -584,7 +584,7 @@ TEST_CASE("space: doubles take the exact path, or are undecided") {
     for (const auto& polygon : polygons)
       rounded.emplace_back(polygon, [](const Rational& x) { return ToDouble(x); });
     CompleteDriving<double> driving;
-    const CompleteVerdict verdict = driving.Run(As<double>(problem), rounded);
+    const RunEnd<> verdict = driving.Run(As<double>(problem), rounded);
     undecided += verdict.outcome == Outcome::kUndecided;
     if (verdict.outcome != Outcome::kSolved) continue;
     same += driving.word() == RunSpace(problem, polygons).word;

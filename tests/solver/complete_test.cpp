@@ -23,7 +23,7 @@ using namespace testing;
 using Complete = CompleteDriving<Rational>;
 
 struct CompleteRun {
-  CompleteVerdict verdict;
+  RunEnd<> verdict;
   std::vector<Pivot<Rational>> path;
   ExactVector f;
   std::string word;
@@ -148,9 +148,9 @@ void CheckPath(const ExactProblem& problem, const CompleteRun& run) {
     descents += Descends(piece);
     CHECK(piece.s >= 0);
   }
-  CHECK(run.verdict.statistics.pieces == static_cast<std::int64_t>(run.path.size()));
-  CHECK(run.verdict.statistics.descents == descents);
-  CHECK(run.verdict.statistics.folds == folds);
+  CHECK(run.verdict.statistics[Counter::kPieces] == static_cast<std::int64_t>(run.path.size()));
+  CHECK(run.verdict.statistics[Counter::kDescents] == descents);
+  CHECK(run.verdict.statistics[Counter::kFolds] == folds);
 }
 
 void CheckSolved(const ExactProblem& problem, const CompleteRun& run) {
@@ -170,8 +170,11 @@ TEST_CASE("complete: the example with a descent goes down and up again as the no
   const CompleteRun run = RunComplete(DescentProblem());
   CheckSolved(DescentProblem(), run);
   CheckPath(DescentProblem(), run);
-  CHECK(run.verdict.statistics ==
-        CompleteStatistics{.pieces = 6, .folds = 1, .descents = 1, .ties = 0, .stages = 4});
+  CHECK(run.verdict.statistics == Counters{{Counter::kPieces, 6},
+                                           {Counter::kFolds, 1},
+                                           {Counter::kDescents, 1},
+                                           {Counter::kTies, 0},
+                                           {Counter::kStages, 4}});
   CHECK(run.word == "SS");
   REQUIRE(run.path.size() == 6);
   CHECK(run.path[0].f == Vector({0, 0, Rational(4, 5), 0}));
@@ -188,11 +191,10 @@ TEST_CASE("complete: the example with a descent goes down and up again as the no
   CHECK(determinants == std::vector<int>{1, 1, -1, 1, 1, 1});
 }
 
-TEMPLATE_TEST_CASE("complete: every arithmetic takes the path with the descent", "", float, double,
-                   long double) {
+TEMPLATE_TEST_CASE("complete: every arithmetic takes the path with the descent", "", float, double) {
   CompleteDriving<TestType> algorithm;
   Trace<TestType> trace;
-  const CompleteVerdict verdict = algorithm.Run(As<TestType>(DescentProblem()), &trace);
+  const RunEnd<> verdict = algorithm.Run(As<TestType>(DescentProblem()), &trace);
   const auto& path = trace.pivots;
   CHECK(verdict.outcome == Outcome::kSolved);
   const CompleteRun exact = RunComplete(DescentProblem());
@@ -228,8 +230,11 @@ TEST_CASE("complete: the reference problem folds twice and reaches its one solut
   const CompleteRun run = RunComplete(ReferenceProblem());
   CheckSolved(ReferenceProblem(), run);
   CheckPath(ReferenceProblem(), run);
-  CHECK(run.verdict.statistics ==
-        CompleteStatistics{.pieces = 4, .folds = 2, .descents = 0, .ties = 0, .stages = 2});
+  CHECK(run.verdict.statistics == Counters{{Counter::kPieces, 4},
+                                           {Counter::kFolds, 2},
+                                           {Counter::kDescents, 0},
+                                           {Counter::kTies, 0},
+                                           {Counter::kStages, 2}});
   CHECK(run.word == "S-");
   CHECK(run.f == Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)}));
 }
@@ -248,10 +253,10 @@ TEST_CASE("complete: the examples of the theory on which the published algorithm
     const CompleteRun run = RunComplete(problems[i]);
     CheckSolved(problems[i], run);
     CheckPath(problems[i], run);
-    CHECK(run.verdict.statistics.folds == 1);
-    CHECK(run.verdict.statistics.descents == 0);
-    CHECK(run.verdict.statistics.pieces >= 3);
-    CHECK(run.verdict.statistics.pieces <= 6);
+    CHECK(run.verdict.statistics[Counter::kFolds] == 1);
+    CHECK(run.verdict.statistics[Counter::kDescents] == 0);
+    CHECK(run.verdict.statistics[Counter::kPieces] >= 3);
+    CHECK(run.verdict.statistics[Counter::kPieces] <= 6);
   }
   CHECK(RunComplete(problems[1]).f ==
         Vector({Rational(169, 212), Rational(-845, 106), Rational(5383, 636), Rational(-3073, 636)}));
@@ -262,7 +267,7 @@ TEST_CASE("complete: random problems on which the published algorithm cycles are
     const CompleteRun run = RunComplete(Cycling(seed));
     CheckSolved(Cycling(seed), run);
     CheckPath(Cycling(seed), run);
-    CHECK(run.verdict.statistics.folds >= 1);
+    CHECK(run.verdict.statistics[Counter::kFolds] >= 1);
   }
 }
 
@@ -270,8 +275,8 @@ TEST_CASE("complete: the exponential family takes one piece less than its words,
   for (int n = 2; n <= 10; ++n) {
     const CompleteRun run = RunComplete(ExponentialFamily(n));
     CheckSolved(ExponentialFamily(n), run);
-    CHECK(run.verdict.statistics.pieces == (1 << n) - 1);
-    CHECK(run.verdict.statistics.folds == 0);
+    CHECK(run.verdict.statistics[Counter::kPieces] == (1 << n) - 1);
+    CHECK(run.verdict.statistics[Counter::kFolds] == 0);
     // Static contacts without friction are the same.
     ExactProblem rough = ExponentialFamily(n);
     ExactProblem with_rows;
@@ -294,7 +299,7 @@ TEST_CASE("complete: trivial problems") {
   const CompleteRun run = RunComplete(resting);
   CheckSolved(resting, run);
   CHECK(run.word == "BB");
-  CHECK(run.verdict.statistics.ties == 2);
+  CHECK(run.verdict.statistics[Counter::kTies] == 2);
 }
 
 // ---- Positive definite, nondegenerate --------------------------------------------------------
@@ -307,9 +312,9 @@ TEST_CASE("complete: on definite problems every path is as the proof says, and n
     const CompleteRun run = RunComplete(problem);
     CheckSolved(problem, run);
     CheckPath(problem, run);
-    CHECK(run.verdict.statistics.ties == 0);
-    folded += run.verdict.statistics.folds > 0;
-    descended += run.verdict.statistics.descents > 0;
+    CHECK(run.verdict.statistics[Counter::kTies] == 0);
+    folded += run.verdict.statistics[Counter::kFolds] > 0;
+    descended += run.verdict.statistics[Counter::kDescents] > 0;
   }
   CHECK(folded > 60);
   CHECK(descended > 5);
@@ -404,7 +409,7 @@ Parting FirstDifference(const ExactProblem& problem, const std::vector<Pivot<Rat
 }
 
 TEST_CASE("complete: it is the published algorithm until the first fold, where that one bounces") {
-  PublishedAlgorithm<Rational> published({ParsePolicy("admit=eager,file=yes,apex=suspended"), {}, {}});
+  PublishedAlgorithm<Rational> published({.policy = ParsePolicy("admit=eager,file=yes,apex=suspended")});
   Trace<Rational> trace;
   std::map<Parting, int> counts;
   for (int index = 0; index < 2000; ++index) {
@@ -448,7 +453,7 @@ TEST_CASE("complete: frictionless, static and smooth contacts mix, degenerate or
     CheckPath(problem, run);
     std::int64_t words = 1;
     for (const auto& contact : problem.contacts) words *= contact.mu > 0 ? 4 : 2;
-    CHECK(run.verdict.statistics.pieces <= words - 1);
+    CHECK(run.verdict.statistics[Counter::kPieces] <= words - 1);
   }
 }
 
@@ -464,8 +469,8 @@ TEST_CASE("complete: every problem of every generator is solved exactly, within 
         const CompleteRun run = RunComplete(problem);
         CheckSolved(problem, run);
         CheckPath(problem, run);
-        CHECK(run.verdict.statistics.pieces <= (std::int64_t{1} << (2 * n)) - 1);
-        tied += run.verdict.statistics.ties > 0;
+        CHECK(run.verdict.statistics[Counter::kPieces] <= (std::int64_t{1} << (2 * n)) - 1);
+        tied += run.verdict.statistics[Counter::kTies] > 0;
         for (const auto& piece : run.path) degenerate_directions += piece.determinant == 0;
       }
     }
@@ -494,7 +499,7 @@ TEST_CASE("complete: ties are told as a small perturbation of b tells them") {
       CAPTURE(g, index);
       const ExactProblem problem = Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 4, 1000 + index);
       const CompleteRun symbolic = RunComplete(problem), real = RunComplete(Perturbed(problem));
-      CHECK(real.verdict.statistics.ties == 0);
+      CHECK(real.verdict.statistics[Counter::kTies] == 0);
       REQUIRE(symbolic.path.size() == real.path.size());
       for (std::size_t k = 0; k < real.path.size(); ++k) {
         CHECK(symbolic.path[k].driven == real.path[k].driven);
@@ -563,11 +568,11 @@ TEST_CASE("complete: a problem without a solution ends in a ray") {
 
 TEST_CASE("complete: a budget ends the run") {
   Complete algorithm;
-  algorithm.options().limits.pivots = 5;
-  const CompleteVerdict verdict = algorithm.Run(DescentProblem());
+  algorithm.request().limits.pivots = 5;
+  const RunEnd<> verdict = algorithm.Run(DescentProblem());
   CHECK(verdict.outcome == Outcome::kLimit);
   CHECK(verdict.reason == "pieces");
-  CHECK(verdict.statistics.pieces == 5);
+  CHECK(verdict.statistics[Counter::kPieces] == 5);
 }
 
 TEST_CASE("complete: the bound of the pieces is the number of the cells of all stages") {
@@ -645,13 +650,13 @@ TEST_CASE(
 
 TEST_CASE("complete: where no sign stands out of the tolerance no stage is entered") {
   CompleteDriving<double> algorithm;
-  algorithm.options().tolerances.pivot = 2;
+  algorithm.request().tolerances.pivot = 2;
   const auto problem = As<double>(MakeProblem({1}, {{1, 0}, {0, 1}}, {0, 0}));
-  const CompleteVerdict verdict = algorithm.Run(problem);
+  const RunEnd<> verdict = algorithm.Run(problem);
   CHECK(verdict.outcome == Outcome::kUndecided);
   CHECK(verdict.reason == "a sign");
-  CHECK(verdict.statistics.ties == 1);
-  CHECK(verdict.statistics.stages == 0);
+  CHECK(verdict.statistics[Counter::kTies] == 1);
+  CHECK(verdict.statistics[Counter::kStages] == 0);
   CHECK(algorithm.Word() == "?");
 }
 
@@ -665,8 +670,7 @@ ExactProblem RoundedTo(ExactProblem problem) {
   return problem;
 }
 
-TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong", "", float, double,
-                   long double) {
+TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong", "", float, double) {
   const bool single = std::is_same_v<TestType, float>;
   CompleteDriving<TestType> algorithm;
   std::map<Outcome, int> counts;
@@ -675,7 +679,7 @@ TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong"
       CAPTURE(g, index);
       const ExactProblem exact =
           RoundedTo<TestType>(Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index));
-      const CompleteVerdict verdict = algorithm.Run(As<TestType>(exact));
+      const RunEnd<> verdict = algorithm.Run(As<TestType>(exact));
       ++counts[verdict.outcome];
       CHECK((verdict.outcome == Outcome::kUndecided) == !verdict.reason.empty());
       if (verdict.outcome != Outcome::kSolved) continue;
@@ -704,7 +708,7 @@ TEST_CASE("complete: fixed and dynamic sizes take the same path") {
     const ExactProblem exact = RandomDefinite(3, index);
     CompleteDriving<double> dynamic;
     CompleteDriving<double, 6> fixed;
-    const CompleteVerdict a = dynamic.Run(As<double>(exact)), b = fixed.Run(As<double, 6>(exact));
+    const RunEnd<> a = dynamic.Run(As<double>(exact)), b = fixed.Run(As<double, 6>(exact));
     CHECK(a.outcome == b.outcome);
     CHECK(a.statistics == b.statistics);
     CHECK(dynamic.Word() == fixed.Word());

@@ -152,9 +152,7 @@ TEST_CASE("smoothed law: with m = 0 it is Coulomb's law") {
 
 TEST_CASE("coulomb: one contact slips, sticks, parts") {
   for (const CoulombStart start : {CoulombStart::kSweeps, CoulombStart::kComplete}) {
-    CoulombOptions options;
-    options.start = start;
-    CoulombSolver<double> solver(options);
+    CoulombSolver<double> solver({}, start);
     const auto solve = [&solver](const Problem& problem) {
       REQUIRE(solver.Run(problem).outcome == Outcome::kSolved);
       return solver.f();
@@ -167,9 +165,7 @@ TEST_CASE("coulomb: one contact slips, sticks, parts") {
 
 TEST_CASE("coulomb: random problems are solved to rounding, from either start") {
   for (const CoulombStart start : {CoulombStart::kSweeps, CoulombStart::kComplete}) {
-    CoulombOptions options;
-    options.start = start;
-    CoulombSolver<double> solver(options);
+    CoulombSolver<double> solver({}, start);
     std::int64_t polygons = 0;
     for (int index = 0; index < 240; ++index) {
       CAPTURE(index);
@@ -177,10 +173,10 @@ TEST_CASE("coulomb: random problems are solved to rounding, from either start") 
       const int n = 1 + index % 8;
       const bool definite = index % 2 == 0;
       const Problem problem = RandomRound(n, definite ? 3 * n : 1 + index % 7, definite, choices);
-      const CoulombVerdict verdict = solver.Run(problem);
+      const RunEnd<> verdict = solver.Run(problem);
       CHECK(verdict.outcome == Outcome::kSolved);
       CHECK(ErrorOf(problem, solver.f(), solver.a()) < (definite ? 1e-13 : 1e-8));
-      polygons += verdict.statistics.polygons;
+      polygons += verdict.statistics[Counter::kPolygons];
     }
     CHECK((start == CoulombStart::kComplete ? polygons > 200 : polygons < 50));  // f = 0 asks for none
   }
@@ -208,14 +204,12 @@ Problem Repeated(int n, int copies, double skew, Choices& choices) {
 }
 
 TEST_CASE("coulomb: repeated contacts are solved without polygons") {
-  CoulombOptions options;
-  options.sides = 0;
-  CoulombSolver<double> solver(options);
+  CoulombSolver<double> solver({.sides = 0});
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
     Choices choices(7000 + index);
     const Problem problem = Repeated(2 + index % 3, 2 + index % 4, 0, choices);
-    const CoulombVerdict verdict = solver.Run(problem);
+    const RunEnd<> verdict = solver.Run(problem);
     CHECK(verdict.outcome == Outcome::kSolved);
     CHECK(ErrorOf(problem, solver.f(), solver.a()) <= 1e-8);
   }
@@ -256,9 +250,7 @@ TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are sol
     CAPTURE(index);
     Choices choices(6000 + index);
     const Problem problem = NoisyStack(1 + index % 3, std::pow(10, -7 + index % 4), choices);
-    SolveOptions options;
-    options.sides = 0;
-    const Answer<double> answer = Solve(problem, "fast", options);
+    const Answer<double> answer = Solve(problem, {.method = "fast", .sides = 0});
     solved += answer.Solved();
     if (answer.Solved()) CHECK(answer.errors->Largest() <= kSolvedResidual<double>);
   }
@@ -266,10 +258,8 @@ TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are sol
 }
 
 TEST_CASE("coulomb: a sparse A gives the answers of a dense one") {
-  CoulombOptions options;
-  options.sides = 0;
-  CoulombSolver<double> dense(options);
-  CoulombSolver<double, SparseContactProblem<double>> sparse(options);
+  CoulombSolver<double> dense({.sides = 0});
+  CoulombSolver<double, SparseContactProblem<double>> sparse({.sides = 0});
   int solved = 0;
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
@@ -279,7 +269,7 @@ TEST_CASE("coulomb: a sparse A gives the answers of a dense one") {
     Problem problem = RandomRound(n, definite ? 3 * n : 1 + index % 7, definite, choices);
     if (index % 3 == 0) problem = Repeated(2 + index % 5, 1, 1e-3, choices);
     const SparseContactProblem<double> same = {3, problem.contacts, problem.A.sparseView(), problem.b};
-    const CoulombVerdict expected = dense.Run(problem), verdict = sparse.Run(same);
+    const RunEnd<> expected = dense.Run(problem), verdict = sparse.Run(same);
     if (verdict.outcome == Outcome::kSolved) {
       ++solved;
       CHECK(ErrorOf(problem, sparse.f(), Problem::Vector(problem.A * sparse.f() + problem.b)) <= 1e-8);
@@ -306,9 +296,7 @@ TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
 }
 
 TEST_CASE("coulomb: asymmetric problems with repeated contacts are solved without polygons too", "[slow]") {
-  CoulombOptions options;
-  options.sides = 0;
-  CoulombSolver<double> solver(options);
+  CoulombSolver<double> solver({.sides = 0});
   const int problems = testing::Few(60);
   int solved = 0;
   for (int index = 0; index < problems; ++index) {
@@ -341,11 +329,11 @@ TEST_CASE("coulomb: what has no solution is undecided") {
   // A wedge: aN + ax = -1 whatever the forces.
   Problem problem = OneContact(1, {-1, 0, 0});
   problem.A << 1, -1, 0, -1, 1, 0, 0, 0, 1;
-  const Answer<double> answer = Solve(problem, "fast");
+  const Answer<double> answer = Solve(problem, {.method = "fast"});
   CHECK(answer.outcome == Outcome::kUndecided);
   CHECK_FALSE(answer.reason.empty());
   problem.b[0] = std::numeric_limits<double>::infinity();
-  CHECK(Solve(problem, "fast").outcome == Outcome::kUndecided);
+  CHECK(Solve(problem, {.method = "fast"}).outcome == Outcome::kUndecided);
 }
 
 TEST_CASE("coulomb: no contacts, no forces") {
@@ -360,10 +348,10 @@ TEST_CASE("coulomb: a start that is given is used") {
   const Problem problem = OneContact(0.5, {-1, 3, 4});
   const Problem::Vector start = Eigen::Vector3d(1, -0.3, -0.4);
   CoulombSolver<double> solver;
-  const CoulombVerdict verdict = solver.Run(problem, &start);
+  const RunEnd<> verdict = solver.Run(problem, &start);
   CHECK(verdict.outcome == Outcome::kSolved);
-  CHECK(verdict.statistics.sweeps == 0);
-  CHECK(verdict.statistics.newton_steps <= 1);
+  CHECK(verdict.statistics[Counter::kSweeps] == 0);
+  CHECK(verdict.statistics[Counter::kNewtonSteps] <= 1);
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ TEST_CASE("direction: a mixed layout follows the rows of its contacts") {
 }
 
 TEMPLATE_TEST_CASE("direction: clamped and sticking forces answer so that their accelerations rest", "", float,
-                   double, long double, Rational) {
+                   double, Rational) {
   const ExactProblem problem =
       MakeProblem({1, 1}, {{4, 0, 1, 1}, {0, 4, 0, 0}, {1, 0, 2, 0}, {1, 0, 0, 4}}, {0, 0, 0, 0});
   const auto [system, status] = Solve<TestType>(problem, {kNone, kNone, kClamped, kSticking}, 0, 1);
@@ -172,7 +172,7 @@ TEMPLATE_TEST_CASE("direction: clamped and sticking forces answer so that their 
 }
 
 TEMPLATE_TEST_CASE("direction: friction at a limit moves with its normal, and can make the system singular", "",
-                   float, double, long double, Rational) {
+                   float, double, Rational) {
   // A is positive definite, but A_NN - mu A_NF = 0 for the second contact.
   const ExactProblem problem =
       MakeProblem({1, 2}, {{4, 0, 1, 0}, {0, 4, 0, 0}, {1, 0, 2, 1}, {0, 0, 1, 4}}, {0, 0, 0, 0});

@@ -25,14 +25,14 @@ bool AreNear(const ExactVector& x, const ExactVector& y) {
 // f = 0, and f at the end of every piece.
 struct DrivenPath {
   Points points;
-  CompleteStatistics statistics;
+  Counters statistics;
 };
 
 DrivenPath Driven(const ExactProblem& problem) {
   CompleteDriving<Rational> driving;
   Trace<Rational> trace;
   DrivenPath path;
-  const CompleteVerdict verdict = driving.Run(problem, &trace);
+  const RunEnd<> verdict = driving.Run(problem, &trace);
   REQUIRE(verdict.outcome == Outcome::kSolved);
   path.statistics = verdict.statistics;
   path.points.push_back(ExactVector::Zero(problem.rows()));
@@ -41,9 +41,7 @@ DrivenPath Driven(const ExactProblem& problem) {
 }
 
 Points Covered(const ExactProblem& problem, Cover cover, ExactVector& end) {
-  LemkeOptions options;
-  options.cover = cover;
-  LemkeAlgorithm<Rational> lemke(options);
+  LemkeAlgorithm<Rational> lemke({}, cover);
   Trace<Rational> trace;
   REQUIRE(lemke.Run(problem, &trace).outcome == Outcome::kSolved);
   end = lemke.f();
@@ -88,17 +86,17 @@ TEST_CASE("equivalence: Lemke's method with a graded covering vector takes the p
     REQUIRE(index < 20000);
     const ExactProblem problem = Random<Rational>(GeneratorId::kPsd, 2 + static_cast<int>(index % 3), index);
     const DrivenPath path = Driven(problem);
-    const bool chosen =
-        path.statistics.ties == 0 && (path.statistics.folds > 0 || path.statistics.descents > 0);
+    const bool chosen = path.statistics[Counter::kTies] == 0 &&
+                        (path.statistics[Counter::kFolds] > 0 || path.statistics[Counter::kDescents] > 0);
     if (!chosen && index >= 60) continue;
-    if (path.statistics.ties > 0) continue;
+    if (path.statistics[Counter::kTies] > 0) continue;
     CAPTURE(index);
     ExactVector end, other;
     CheckFollows(path.points, Covered(problem, Cover::kGraded, end));
     CHECK(end == path.points.back());
     Covered(problem, Cover::kOnes, other);
-    folded += path.statistics.folds > 0;
-    descended += path.statistics.descents > 0;
+    folded += path.statistics[Counter::kFolds] > 0;
+    descended += path.statistics[Counter::kDescents] > 0;
     apart += other != end;
   }
   CHECK(apart > 0);  // with ones it is another path

@@ -84,7 +84,8 @@ TEST_CASE("gate: it and the outcomes are the same in other units of every contac
       const OtherUnits units(problem, choices, index % 2 == 0 ? 26 : 120);  // masses 1 : 10^16, and beyond
       for (const char* method : {"auto", "fast", "complete", "lemke", "baraff"}) {
         CAPTURE(Row(id).name, index, method);
-        const Answer<double> answer = Solve(given, method), same = Solve(units(given), method);
+        const Answer<double> answer = Solve(given, {.method = method}),
+                             same = Solve(units(given), {.method = method});
         CHECK(same.outcome == answer.outcome);
         CHECK(same.counters == answer.counters);
         if (answer.f.size() != given.rows() || !answer.f.allFinite()) continue;
@@ -178,7 +179,7 @@ TEST_CASE("gate: a neighbour without force, however heavily loaded, does not hol
   CHECK(ErrorAt(shadow, Eigen::Vector3d(0, 0, 3.7e7 - 1e-9)) > 0.9);
   for (const char* method : {"complete", "lemke", "baraff", "fast", "auto"}) {
     CAPTURE(method);
-    const Answer<double> answer = Solve(Rounded<double>(shadow), method);
+    const Answer<double> answer = Solve(Rounded<double>(shadow), {.method = method});
     CHECK(answer.Solved());
     if (answer.Solved()) CHECK(answer.f[0] == Approx(2.3e-5).epsilon(1e-2));
   }
@@ -346,7 +347,7 @@ TEST_CASE("gate: in the plane the direction of a slip is a sign, which rounding 
       -17180393474, 17179738118, 8589606907, 17180131346;
   problem.b = Eigen::Vector4d(-655374, 655333, 327658, 655357);
   for (const char* method : {"fast", "complete", "baraff"}) {
-    const Answer<double> answer = Solve(problem, method);
+    const Answer<double> answer = Solve(problem, {.method = method});
     CHECK(answer.Solved());
     CHECK(answer.errors->Largest() <= kEps);
   }
@@ -358,7 +359,7 @@ TEST_CASE("gate: what it lets pass is an exact solution of a neighbour of the pr
                                GeneratorId::kSliding, GeneratorId::kSpace}) {
     for (int index = 0; index < Few(80); ++index) {
       const ExactProblem problem = Unrounded(Rounded<double>(Random<Rational>(id, 1 + index % 3, index)));
-      const Answer<double> answer = Solve(Rounded<double>(problem), "fast");
+      const Answer<double> answer = Solve(Rounded<double>(problem), {.method = "fast"});
       if (!answer.Solved()) continue;
       Choices choices(index);
       for (int k = 0; k < 12; ++k) {

@@ -102,7 +102,7 @@ TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction an
     const SparseProblem heap = Discs(30, 16, mu);
     REQUIRE(heap.contacts.size() > 1000);
     ProximalNewton<double> method;
-    const ProximalVerdict verdict = method.Run(InDoubles(heap));
+    const RunEnd<> verdict = method.Run(InDoubles(heap));
     CHECK(verdict.outcome == Outcome::kSolved);
     CHECK(ExactResidual(heap, method) <= Rational(1, 100000000));
   }
@@ -133,7 +133,7 @@ TEST_CASE("proximal: bilateral, frictionless and sliding contacts, and an A with
 TEST_CASE("proximal: without a solution, undecided, or solved by forces so large that mu need hardly differ") {
   ProximalNewton<double> method;
   for (const ExactProblem& problem : {NoSolution(), MakeProblem({-1}, {{0}}, {-1})}) {
-    const ProximalVerdict verdict = method.Run(InDoubles(Sparse(problem)));
+    const RunEnd<> verdict = method.Run(InDoubles(Sparse(problem)));
     if (verdict.outcome == Outcome::kSolved) {
       CHECK(method.f().cwiseAbs().maxCoeff() > 1e7);
       continue;

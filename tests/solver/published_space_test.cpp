@@ -20,11 +20,7 @@ using namespace testing;
 
 constexpr Slip kSlips[] = {Slip::kLiteral, Slip::kRedirect};
 
-PublishedOptions Reading(Slip slip) {
-  PublishedOptions options;
-  options.policy.slip = slip;
-  return options;
-}
+Request Reading(Slip slip) { return {.policy = {.slip = slip}}; }
 
 ExactProblem InSpace(const std::vector<Rational>& mu, const std::vector<std::vector<Rational>>& A,
                      const std::vector<Rational>& b) {
@@ -38,16 +34,18 @@ ExactProblem OneContact(const Rational& mu, const std::vector<Rational>& b) {
 }
 
 struct Ended {
-  PublishedSpaceVerdict verdict;
+  Verdict verdict;
+  Counters counters;
   SpaceTrace<double> trace;
   Eigen::VectorXd f, a;
 };
 
-Ended Run(const ExactProblem& problem, const PublishedOptions& options) {
-  PublishedInSpace<double> algorithm(options);
+Ended Run(const ExactProblem& problem, const Request& request) {
+  PublishedInSpace<double> algorithm(request);
   Ended ended;
   const auto rounded = As<double>(problem);
   ended.verdict = algorithm.Run(rounded, &ended.trace);
+  ended.counters = algorithm.counters();
   ended.f = algorithm.f();
   ended.a = rounded.A * ended.f + rounded.b;
   CHECK((ended.a - algorithm.a()).norm() <= 1e-9 * (1 + rounded.b.norm()));
@@ -126,11 +124,11 @@ TEST_CASE("space: a sticking contact leaves by the quadratic step (23) and keeps
 // While contact 3 is driven, fN of contact 2 in C and aN of contact 1 in NC reach zero at s = 1.
 TEST_CASE("space: ties follow the switch") {
   const ExactProblem problem = InSpace({-1, -1, -1}, {{1, 0, -1}, {0, 1, 1}, {-1, 1, 10}}, {1, -1, -100});
-  PublishedOptions options;
-  options.policy.admit = Admit::kEager;
+  Request request;
+  request.policy.admit = Admit::kEager;
   for (const Ties ties : {Ties::kSets, Ties::kContacts}) {
-    options.policy.ties = ties;
-    const Ended ended = Run(problem, options);
+    request.policy.ties = ties;
+    const Ended ended = Run(problem, request);
     REQUIRE(ended.trace.size() > 2);
     CHECK(ended.trace[1].s == Approx(1));
     CHECK(ended.trace[1].limiting == (ties == Ties::kSets ? 1 : 0));
@@ -155,8 +153,8 @@ ExactProblem Turning() {
 TEST_CASE("space: slip=literal passes d.aF = 0, and drives the contact anew once the sets are full") {
   const Ended ended = Run(Turning(), Reading(Slip::kLiteral));
   CHECK(ended.trace[2].s == Approx(10.0 / 11));
-  CHECK(ended.verdict.statistics.breaks == 1);
-  CHECK(ended.verdict.statistics.redirects == 0);
+  CHECK(ended.counters[Counter::kBreaks] == 1);
+  CHECK(ended.counters[Counter::kRedirects] == 0);
   // To zero, then x until ax = 0, then y until the circle.
   CheckForces(ended, {8.0 / 11, -2.0 / 3, -std::sqrt(92.0) / 33, 10.0 / 11, 0.5, 0});
 }
@@ -166,8 +164,8 @@ TEST_CASE("space: slip=redirect gives the contact up at d.aF = 0 and drives it a
   CHECK(ended.trace[2].s == Approx(2.0 / 3));
   CHECK(ended.trace[2].limiting == 1);
   CHECK(ended.trace[2].to == IndexSet::kNone);
-  CHECK(ended.verdict.statistics.redirects == 1);
-  CHECK(ended.verdict.statistics.breaks == 0);
+  CHECK(ended.counters[Counter::kRedirects] == 1);
+  CHECK(ended.counters[Counter::kBreaks] == 0);
   CHECK(ended.verdict.statistics.give_ups == 0);
   const double along = -8 / (11 * std::sqrt(5.0));
   CheckForces(ended, {8.0 / 11, 2 * along, along, 10.0 / 11, 0.5, 0});
@@ -188,10 +186,11 @@ TEST_CASE(
   CHECK(RunIntervalsInSpace(problem, Reading(Slip::kRedirect)).outcome == Outcome::kSolved);
 }
 
-// Run again in long double where doubles do not solve.
-InexactAnswer SolveInDoubles(const ExactProblem& problem, const PublishedOptions& options) {
-  SolveRequest request{.method = "baraff", .arithmetic = Arithmetic::kDouble, .trace = KeepTrace::kYes};
-  request.options.policy = options.policy;
+// Run again over quad where doubles do not solve.
+InexactAnswer SolveInDoubles(const ExactProblem& problem, Request request) {
+  request.method = "baraff";
+  request.arithmetic = Arithmetic::kDouble;
+  request.trace = true;
   return std::get<InexactAnswer>(SolveIn(problem, request).answer);
 }
 
@@ -205,7 +204,7 @@ TEST_CASE("space: both readings loop on a definite problem: a suspicion, over in
                                         {1, -1, 0, 0, 0, 3}},
                                        {-1, 2, 0, -1, -2, 1});
   for (const Slip slip : kSlips) {
-    const PublishedSpaceVerdict verdict = Run(problem, Reading(slip)).verdict;
+    const Verdict verdict = Run(problem, Reading(slip)).verdict;
     CHECK(verdict.outcome == Outcome::kCycle);
     const InexactAnswer again = SolveInDoubles(problem, Reading(slip));
     CHECK(again.arithmetic == Arithmetic::kDouble);  // as asked, though it was run again
@@ -237,13 +236,6 @@ ExactProblem Embedded(const ExactProblem& planar) {
   return problem;
 }
 
-void CheckEqual(const std::vector<Counter>& found, const Statistics& expected) {
-  for (const Counter& counter : CountersOf(expected)) {
-    CAPTURE(counter.name);
-    CHECK(ValueOf(found, counter.name) == counter.value);
-  }
-}
-
 // Whether a friction variable goes from NC- through CF to NC+, or back, by a step of length zero or right after
 // one. In space that is back to the set that it came from, NCF, and looks like a bounce.
 bool PassesThroughSticking(const Trace<Rational>& trace) {
@@ -262,16 +254,16 @@ bool PassesThroughSticking(const Trace<Rational>& trace) {
 // False if the plane has a distinction that space has not.
 bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
   CAPTURE(PolicyName(policy));
-  const ExactRun plane = RunExact(planar, {policy, {}, {}});
+  const ExactRun plane = RunExact(planar, {.policy = policy});
   const Verdict& expected = plane.verdict;
   if (PassesThroughSticking(plane.trace)) return false;
-  const Ended ended = Run(Embedded(planar), {policy, {}, {}});
+  const Ended ended = Run(Embedded(planar), {.policy = policy});
   CHECK(ended.verdict.outcome == expected.outcome);
   CHECK(ended.verdict.start == expected.start);
   CHECK(ended.verdict.period == expected.period);
-  CheckEqual(CountersOf(ended.verdict.statistics), expected.statistics);
-  CHECK(ended.verdict.statistics.redirects == 0);
-  CHECK(ended.verdict.statistics.breaks == 0);
+  CHECK(ended.verdict.statistics == expected.statistics);
+  CHECK(ended.counters[Counter::kRedirects] == 0);
+  CHECK(ended.counters[Counter::kBreaks] == 0);
   for (int i = 0; i < planar.rows(); ++i)
     CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.state.f[i])).margin(1e-6));
   return true;
@@ -308,7 +300,10 @@ TEST_CASE("space: intervals take the steps of exact arithmetic, bounces too, or 
     ++decided;
     CAPTURE(k);
     CHECK(verdict.outcome == plane.verdict.outcome);
-    CheckEqual(verdict.counters, plane.verdict.statistics);
+    CountersOf(plane.verdict.statistics).ForEach([&](Counter c, std::int64_t value) {
+      CAPTURE(Name(c));
+      CHECK(verdict.counters[c] == value);
+    });
   }
   CHECK(bounced >= 15);
   CHECK(decided >= bounced / 2);
@@ -366,10 +361,10 @@ TEST_CASE("space: solved means (15), (21), (22), over doubles and over intervals
   int solved = 0, proved = 0;
   for (int k = 0; k < 400; ++k) {
     const ExactProblem problem = RandomInSpace(1 + k % 4, k);
-    const PublishedOptions options{RandomReading(choices), {}, {}};
-    CAPTURE(k, PolicyName(options.policy));
-    const Ended ended = Run(problem, options);
-    const InexactAnswer enclosed = RunIntervalsInSpace(problem, options);
+    const Request request{.policy = RandomReading(choices)};
+    CAPTURE(k, PolicyName(request.policy));
+    const Ended ended = Run(problem, request);
+    const InexactAnswer enclosed = RunIntervalsInSpace(problem, request);
     if (ended.verdict.outcome == Outcome::kSolved) {
       ++solved;
       CHECK(WeakErrorOf(As<double>(problem), ended.f, ended.a) < 1e-9);
@@ -378,7 +373,7 @@ TEST_CASE("space: solved means (15), (21), (22), over doubles and over intervals
     ++proved;
     CHECK(enclosed.outcome == ended.verdict.outcome);
     if (enclosed.outcome == Outcome::kCycle) continue;  // perhaps proved by another run, with more bits
-    CHECK(enclosed.counters == CountersOf(ended.verdict.statistics));
+    CHECK(enclosed.counters == ended.counters);
     for (int i = 0; i < problem.rows(); ++i) {
       CHECK(enclosed.f_enclosed[i].low <= enclosed.f_enclosed[i].high);
       CHECK(ended.f[i] == Approx((enclosed.f_enclosed[i].low + enclosed.f_enclosed[i].high) / 2).margin(1e-9));
@@ -453,7 +448,7 @@ TEST_CASE("space: mirrored axes change nothing, and what sticks does not ask for
 
 // ---- How runs end --------------------------------------------------------------------------------
 
-TEMPLATE_TEST_CASE("space: every scalar solves", "", float, double, long double) {
+TEMPLATE_TEST_CASE("space: every scalar solves", "", float, double) {
   PublishedInSpace<TestType> algorithm;
   const auto problem = As<TestType>(Turning());
   CHECK(algorithm.Run(problem).outcome == Outcome::kSolved);
@@ -465,9 +460,7 @@ TEST_CASE("space: no contacts, budgets, and what is no number") {
   ExactProblem none = NoContacts();
   none.dimension = 3;
   CHECK(Run(none, {}).verdict.outcome == Outcome::kSolved);
-  PublishedOptions options;
-  options.limits.drives = 2;
-  const PublishedSpaceVerdict verdict = PublishedInSpace<double>(options).Run(As<double>(Turning()));
+  const Verdict verdict = PublishedInSpace<double>({.limits = {.drives = 2}}).Run(As<double>(Turning()));
   CHECK(verdict.outcome == Outcome::kLimit);
   CHECK(verdict.reason == "drives");
   ContactProblem<double> broken = As<double>(Turning());
@@ -479,10 +472,10 @@ TEST_CASE("space: no contacts, budgets, and what is no number") {
 
 TEST_CASE("space: bilateral contacts leave the steps of the rest as they are") {
   for (const char* slip : {"slip=literal", "slip=redirect"}) {
-    const PublishedOptions options{ParsePolicy(slip), {}, {}};
+    const Request request{.policy = ParsePolicy(slip)};
     const ExactProblem problem = Turning(), bordered = Bordered(problem);
-    const InexactAnswer plain = SolveInDoubles(problem, options);
-    const InexactAnswer run = SolveInDoubles(bordered, options);
+    const InexactAnswer plain = SolveInDoubles(problem, request);
+    const InexactAnswer run = SolveInDoubles(bordered, request);
     CHECK(run.outcome == plain.outcome);
     CHECK(run.counters == plain.counters);
     CHECK(run.residual() < 1e-12);

@@ -45,8 +45,7 @@ TEST_CASE("published: the reference problem cycles step for step as the specific
   CHECK(StepsOfPeriod(run) == ReferencePeriod());
 }
 
-TEMPLATE_TEST_CASE("published: inexact arithmetic sees the cycle of the reference problem", "", float, double,
-                   long double) {
+TEMPLATE_TEST_CASE("published: inexact arithmetic sees the cycle of the reference problem", "", float, double) {
   PublishedAlgorithm<TestType> algorithm;
   Trace<TestType> trace;
   const auto problem = As<TestType>(ReferenceProblem());
@@ -67,7 +66,7 @@ TEST_CASE("published: of the grid 1320 policies cycle on the reference problem, 
   for (const PolicyClass& equal : RunPolicies(ReferenceProblem(), PlanarGrid(), {})) {
     counts[equal.verdict.outcome] += equal.policies.size();
     if (equal.verdict.outcome != Outcome::kSolved) continue;
-    CHECK(RunExact(ReferenceProblem(), {equal.policies.front(), {}, {}}).state.f ==
+    CHECK(RunExact(ReferenceProblem(), {.policy = equal.policies.front()}).state.f ==
           Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)}));
     for (const Policy& policy : equal.policies) {
       CHECK((policy.file == File::kYes && policy.drop == Drop::kVariable));
@@ -94,7 +93,7 @@ TEST_CASE("published: the problem of theory 6.4 cycles under file=yes and kin on
   std::size_t cycles = 0;
   for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
     if (equal.verdict.outcome == Outcome::kSolved) {
-      CHECK(RunExact(problem, {equal.policies.front(), {}, {}}).state.f == solution);
+      CHECK(RunExact(problem, {.policy = equal.policies.front()}).state.f == solution);
       continue;
     }
     CHECK(equal.verdict.outcome == Outcome::kCycle);
@@ -108,7 +107,7 @@ TEST_CASE("published: no contacts and no violated condition are solved without a
   for (const Policy& policy :
        {Policy{}, ParsePolicy("scan=highest"), ParsePolicy("scan=most-violated,resume=round")}) {
     for (const ExactProblem& problem : {NoContacts(), ThreeSolutions()}) {
-      const Verdict verdict = RunExact(problem, {policy, {}, {}}).verdict;
+      const Verdict verdict = RunExact(problem, {.policy = policy}).verdict;
       CHECK(verdict.outcome == Outcome::kSolved);
       CHECK(verdict.statistics.drives == 0);
       CHECK(verdict.statistics.outer_scans == 1);
@@ -128,15 +127,15 @@ std::vector<int> DrivenRows(const ExactRun& run) {
 TEST_CASE("published: most-violated takes normals by -aN, then frictions by abs(aF), of equal ones the first") {
   ExactProblem problem = MakeProblem({1, 1, 1}, {}, {-1, 1, -1, Rational(-2), -1, Rational(2)});
   problem.A = ExactMatrix::Identity(6, 6);
-  const PublishedOptions options = {ParsePolicy("scan=most-violated"), {}, {}};
-  CHECK(DrivenRows(RunExact(problem, options)) == std::vector{0, 2, 4, 3, 5, 1});
+  const Request request = {.policy = ParsePolicy("scan=most-violated")};
+  CHECK(DrivenRows(RunExact(problem, request)) == std::vector{0, 2, 4, 3, 5, 1});
   problem.b[4] = -3;
   problem.b[1] = 5;
-  CHECK(DrivenRows(RunExact(problem, options)) == std::vector{4, 0, 2, 1, 3, 5});
+  CHECK(DrivenRows(RunExact(problem, request)) == std::vector{4, 0, 2, 1, 3, 5});
 }
 
 TEST_CASE("published: a driven friction that reaches zero after a zero step is not given up") {
-  const ExactRun run = RunExact(ReferenceProblem(), {ParsePolicy("give-up=previous"), {}, {}});
+  const ExactRun run = RunExact(ReferenceProblem(), {.policy = ParsePolicy("give-up=previous")});
   int found = 0;
   for (std::size_t k = 1; k < run.trace.pivots.size(); ++k) {
     const auto &pivot = run.trace.pivots[k], &before = run.trace.pivots[k - 1];
@@ -166,13 +165,13 @@ TEST_CASE("published: a direction system without a solution ends in `singular`")
 // ---- Budgets ---------------------------------------------------------------------------------
 
 TEMPLATE_TEST_CASE("published: a budget that just suffices changes nothing, one less ends in `limit`", "",
-                   double, long double, Rational) {
+                   double, Rational) {
   const auto problem = As<TestType>(GiveUpProblem());
   PublishedAlgorithm<TestType> algorithm;
   const Verdict free = algorithm.Run(problem);
   REQUIRE(free.outcome == Outcome::kSolved);
   const auto run = [&](const Limits& limits) {
-    algorithm.options().limits = limits;
+    algorithm.request().limits = limits;
     return algorithm.Run(problem);
   };
   const std::int64_t drives = free.statistics.drives, steps = free.statistics.steps;
@@ -206,7 +205,7 @@ void ForEachNumber(ContactProblem<Scalar>& problem, Visit visit) {
 }
 
 TEMPLATE_TEST_CASE("published: a problem with a number that is none is undecided, never solved", "", float,
-                   double, long double) {
+                   double) {
   auto problem = As<TestType>(ReferenceProblem());
   PublishedAlgorithm<TestType> algorithm;
   int position = 0;

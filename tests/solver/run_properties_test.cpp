@@ -66,7 +66,7 @@ TEST_CASE("run: at every step a = A f + b, s >= 0, and what is maintained is leg
   int steps = 0, give_ups = 0;
   ForEachPair(6000, [&](const ExactProblem& problem, const Policy& policy) {
     const auto layout = LayoutOf(problem);
-    const ExactRun run = RunExact(problem, {policy, {}, {}});
+    const ExactRun run = RunExact(problem, {.policy = policy});
     ExactVector f = problem.b;
     for (Rational& x : f) x = 0;
     for (const Pivot<Rational>& pivot : run.trace.pivots) {
@@ -95,7 +95,7 @@ bool GivesUp(GiveUp rule, bool zero, bool zero_before) {
 
 TEST_CASE("run: a variable is given up exactly when the policy says so, and the counters count the trace") {
   ForEachPair(6000, [&](const ExactProblem& problem, const Policy& policy) {
-    const ExactRun run = RunExact(problem, {policy, {}, {}});
+    const ExactRun run = RunExact(problem, {.policy = policy});
     Statistics counted;
     std::map<int, IndexSet> left;  // in the present drive; of the variables that limited a step
     bool zero_before = false;
@@ -168,7 +168,7 @@ TEST_CASE("run: a solution meets the conditions, a cycle returns to its state an
   std::map<Outcome, int> outcomes;
   ForEachPair(8000, [&](const ExactProblem& problem, const Policy& policy) {
     CAPTURE(PolicyName(policy));
-    const ExactRun run = RunExact(problem, {policy, {}, {}});
+    const ExactRun run = RunExact(problem, {.policy = policy});
     const Verdict& verdict = run.verdict;
     ++outcomes[verdict.outcome];
     if (verdict.outcome == Outcome::kSolved) CHECK(FindViolation(problem, run.state.f) == std::nullopt);
@@ -225,7 +225,7 @@ TEST_CASE("run: scaling b scales the forces and every step, under every policy")
     CAPTURE(PolicyName(policy));
     ExactProblem scaled = problem;
     for (Rational& x : scaled.b) x *= Rational(3, 7);
-    CheckSameSteps(RunExact(problem, {policy, {}, {}}), RunExact(scaled, {policy, {}, {}}),
+    CheckSameSteps(RunExact(problem, {.policy = policy}), RunExact(scaled, {.policy = policy}),
                    std::vector<Rational>(problem.rows(), Rational(7, 3)));
   });
 }
@@ -236,7 +236,7 @@ TEST_CASE("run: other units for each force change no step, unless the scan compa
     CAPTURE(PolicyName(policy));
     std::vector<Rational> unit;
     for (int i = 0; i < problem.rows(); ++i) unit.push_back(Rational(1 + i % 3) / (1 + i % 2));
-    CheckSameSteps(RunExact(problem, {policy, {}, {}}), RunExact(InUnits(problem, unit), {policy, {}, {}}),
+    CheckSameSteps(RunExact(problem, {.policy = policy}), RunExact(InUnits(problem, unit), {.policy = policy}),
                    unit);
   });
 }
@@ -247,8 +247,8 @@ TEST_CASE("run: turning tangents round turns friction round, with ties by contac
     CAPTURE(PolicyName(policy));
     std::vector<Rational> turn;
     for (int i = 0; i < problem.rows(); ++i) turn.push_back(i % 4 == 1 ? -1 : 1);
-    const ExactRun run = RunExact(problem, {policy, {}, {}}),
-                   turned = RunExact(InUnits(problem, turn), {policy, {}, {}});
+    const ExactRun run = RunExact(problem, {.policy = policy}),
+                   turned = RunExact(InUnits(problem, turn), {.policy = policy});
     REQUIRE(turned.verdict.statistics == run.verdict.statistics);
     REQUIRE(turned.verdict.outcome == run.verdict.outcome);
     for (std::size_t i = 0; i < turn.size(); ++i) CHECK(turned.state.f[i] * turn[i] == run.state.f[i]);
@@ -263,7 +263,7 @@ TEST_CASE("run: contacts in the opposite order, scanned in the opposite order, t
     std::vector<int> rows;
     const ExactProblem reversed = Reversed(problem, &rows);
     const ExactRun run = RunExact(problem, {});
-    const ExactRun other = RunExact(reversed, {ParsePolicy("scan=highest"), {}, {}});
+    const ExactRun other = RunExact(reversed, {.policy = ParsePolicy("scan=highest")});
     REQUIRE(other.verdict.statistics == run.verdict.statistics);
     for (std::size_t i = 0; i < rows.size(); ++i) CHECK(other.state.f[i] == run.state.f[rows[i]]);
   }
@@ -278,7 +278,7 @@ void CheckFixedSize(GeneratorId id, int count) {
   for (int index = 0; index < count; ++index) {
     CAPTURE(Rows, index);
     Choices choices(index);
-    fixed.options().policy = dynamic.options().policy = RandomPolicy(choices);
+    fixed.request().policy = dynamic.request().policy = RandomPolicy(choices);
     const auto small = Random<double, Rows>(id, Rows / 2, index);
     const auto problem = Random<double>(id, Rows / 2, index);
     const Verdict left = fixed.Run(small), right = dynamic.Run(problem);
@@ -300,17 +300,17 @@ TEST_CASE("run: fixed sizes and any size give the same verdict, statistics and f
 }
 
 TEMPLATE_TEST_CASE("run: tracing changes nothing, nor does what the object ran before", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   PublishedAlgorithm<TestType> used;
   for (int index = 0; index < 300; ++index) {
     CAPTURE(index);
     Choices choices(index);
     const auto problem = As<TestType>(Random<Rational>(kKinds[index % 3], 1 + index % 4, index));
-    const PublishedOptions options{RandomPolicy(choices), {}, {}};
-    used.options() = options;
+    const Request request{.policy = RandomPolicy(choices)};
+    used.request() = request;
     Trace<TestType> all, consulted;
     consulted.keep_pivots = false;
-    PublishedAlgorithm<TestType> traced(options), untraced(options);
+    PublishedAlgorithm<TestType> traced(request), untraced(request);
     const Verdict expected = untraced.Run(problem);
     for (const Verdict& verdict : {traced.Run(problem, &all), used.Run(problem, &consulted)}) {
       CHECK(verdict.outcome == expected.outcome);
@@ -324,8 +324,7 @@ TEMPLATE_TEST_CASE("run: tracing changes nothing, nor does what the object ran b
   }
 }
 
-TEMPLATE_TEST_CASE("run: inexact arithmetic agrees with exact arithmetic on small integers", "", double,
-                   long double) {
+TEMPLATE_TEST_CASE("run: inexact arithmetic agrees with exact arithmetic on small integers", "", double) {
   int agree = 0;
   constexpr int kCount = 1000;
   for (int index = 0; index < kCount; ++index) {

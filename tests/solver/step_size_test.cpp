@@ -115,7 +115,7 @@ Case MaintainedCase(const Maintained& m, const Rational& gap) {
 }
 
 TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where its row of the table says", "",
-                   float, double, long double, Rational) {
+                   float, double, Rational) {
   for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, kHalf), kHalf, m.row, m.wants);
@@ -123,7 +123,7 @@ TEMPLATE_TEST_CASE("step size: every maintained variable limits the step where i
 }
 
 TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go on gives a zero step", "", float,
-                   double, long double, Rational) {
+                   double, Rational) {
   for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     CheckLimit<TestType>(MaintainedCase(m, 0), 0, m.row, m.wants);
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("step size: a variable that stands at its limit and must go o
 }
 
 TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is in no set, does not limit", "",
-                   float, double, long double, Rational) {
+                   float, double, Rational) {
   for (const Maintained& m : MaintainedRows()) {
     CAPTURE(m.what);
     for (const bool opposite : {true, false}) {
@@ -152,14 +152,14 @@ TEMPLATE_TEST_CASE("step size: a variable that moves away from its limit, or is 
 }
 
 TEMPLATE_TEST_CASE("step size: the driven normal stops where its acceleration is zero", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   Case c = FarCase(1);
   c.a[0] = -4;
   CheckLimit<TestType>(c, kHalf, 0, kClamped);
 }
 
 TEMPLATE_TEST_CASE("step size: driven friction stops at aF = 0, at its bound, or at aF = 0 if at both", "",
-                   float, double, long double, Rational) {
+                   float, double, Rational) {
   for (const int sign : {1, -1}) {  // of fF
     CAPTURE(sign);
     Case c = FarCase(1);
@@ -179,7 +179,7 @@ TEMPLATE_TEST_CASE("step size: driven friction stops at aF = 0, at its bound, or
 }
 
 TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its normal force falls", "", float,
-                   double, long double, Rational) {
+                   double, Rational) {
   Case c = FarCase(1);
   c.driven = 1;
   c.A = {{1, 1}, {1, 2}};  // dfN = -1
@@ -190,7 +190,7 @@ TEMPLATE_TEST_CASE("step size: driven friction meets its bound sooner while its 
 }
 
 TEMPLATE_TEST_CASE("step size: driven friction meets its bound in any unit of mass", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   for (const int sign : {1, -1}) {  // of fF; the bound moves by newtons per newton, whatever A is
     Case c = FarCase(1);
     c.driven = 1;
@@ -204,7 +204,7 @@ TEMPLATE_TEST_CASE("step size: driven friction meets its bound in any unit of ma
 }
 
 TEMPLATE_TEST_CASE("step size: friction driven to zero stops there and nowhere before", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   for (const int sign : {1, -1}) {
     Case c = FarCase(1);
     c.driven = 1;
@@ -216,7 +216,7 @@ TEMPLATE_TEST_CASE("step size: friction driven to zero stops there and nowhere b
   }
 }
 
-TEMPLATE_TEST_CASE("step size: without a limit it is a ray", "", float, double, long double, Rational) {
+TEMPLATE_TEST_CASE("step size: without a limit it is a ray", "", float, double, Rational) {
   Case c = FarCase(2);
   c.A[0][0] = 0;
   CHECK(Find<TestType>(c).limiting == -1);
@@ -239,7 +239,7 @@ Case TiedCase() {
 }
 
 TEMPLATE_TEST_CASE("step size: ties=sets takes C before NC, ties=contacts the first row", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   Case c = TiedCase();
   CheckLimit<TestType>(c, kHalf, 4, kSeparating);
   CHECK(Find<TestType>(c).order_matters);
@@ -249,7 +249,7 @@ TEMPLATE_TEST_CASE("step size: ties=sets takes C before NC, ties=contacts the fi
 }
 
 TEMPLATE_TEST_CASE("step size: steps that differ by less than the tolerance tie, over inexact scalars", "",
-                   float, double, long double, Rational) {
+                   float, double, Rational) {
   // The tolerance is max abs(b) / max A_ii = 128 times 1e-10, or over float times 8 epsilon.
   const bool coarse = sizeof(TestType) == sizeof(float);
   const Rational less = coarse ? Rational(1, 1L << 20) : Rational(1, 1L << 36);
@@ -262,7 +262,7 @@ TEMPLATE_TEST_CASE("step size: steps that differ by less than the tolerance tie,
 }
 
 TEMPLATE_TEST_CASE("step size: within a set the lowest row limits, and the tie rules agree", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   Case c = TiedCase();
   c.sets[2] = kNone;
   CheckLimit<TestType>(c, kHalf, 4, kSeparating);
@@ -270,7 +270,7 @@ TEMPLATE_TEST_CASE("step size: within a set the lowest row limits, and the tie r
 }
 
 TEMPLATE_TEST_CASE("step size: ties=sets takes friction in the order CF, NC-, NC+ after normals", "", float,
-                   double, long double, Rational) {
+                   double, Rational) {
   Case c = FarCase(5);
   const auto add = [&c](int contact, IndexSet set, const Rational& coupling, const Rational& f_f,
                         const Rational& a) {
@@ -295,7 +295,7 @@ TEMPLATE_TEST_CASE("step size: ties=sets takes friction in the order CF, NC-, NC
 }
 
 TEMPLATE_TEST_CASE("step size: the driven variable comes before all others of a tie", "", float, double,
-                   long double, Rational) {
+                   Rational) {
   Case c = TiedCase();
   c.a[0] = -3;  // da = 8 - 1 - 1
   for (const Ties ties : {Ties::kSets, Ties::kContacts}) {

@@ -42,7 +42,7 @@ void ForEachStaticRun(int count, Visit visit) {
     CAPTURE(index);
     Choices choices(index);
     const ExactProblem problem = Random<Rational>(kinds[index % 4], 1 + index % 4, 700000 + index);
-    visit(problem, RunExact(problem, {RandomPolicy(choices), {}, {}}));
+    visit(problem, RunExact(problem, {.policy = RandomPolicy(choices)}));
   }
 }
 
@@ -131,7 +131,7 @@ Recurrences FindRecurrences(const ExactRun& run) {
 TEST_CASE("theorem 3, corrected: with friction sets recur within a drive, but only where they were left") {
   // "Exactly the same" proof divides by the difference of the driven force at both times, which is zero in a
   // run of zero steps. give-up=second lets a variable come back once.
-  const ExactRun example = RunExact(GiveUpProblem(), {ParsePolicy("give-up=second"), {}, {}});
+  const ExactRun example = RunExact(GiveUpProblem(), {.policy = ParsePolicy("give-up=second")});
   CHECK(FindRecurrences(example).where_left == 2);
   int recurrences = 0;
   ForEachStaticRun(4000, [&](const ExactProblem&, const ExactRun& run) {

@@ -247,8 +247,8 @@ const CellWord& EndOf(const CompleteDriving<double>& run) { return run.word(); }
 template <class Algorithm>
 void CompareRuns(const Problem& problem) {
   Algorithm updated, fresh;
-  updated.options().update_from = 4;
-  fresh.options().update_from = kNever;
+  updated.UpdateFrom(4);
+  fresh.UpdateFrom(kNever);
   const auto verdict = updated.Run(problem), expected = fresh.Run(problem);
   REQUIRE(expected.outcome == Outcome::kSolved);
   CHECK(verdict.outcome == expected.outcome);
@@ -282,7 +282,7 @@ TEST_CASE("updated system: whole runs are solved where A is singular, too") {
     Eigen::VectorXd a[2];
     for (const bool fresh : {false, true}) {
       PublishedAlgorithm<double> algorithm;
-      algorithm.options().update_from = fresh ? kNever : 4;
+      algorithm.UpdateFrom(fresh ? kNever : 4);
       REQUIRE(algorithm.Run(problem).outcome == Outcome::kSolved);
       a[fresh] = problem.A * algorithm.state().f + problem.b;
       CHECK(MeasureErrors(problem, FrictionLaw::kCoulomb, algorithm.state().f, a[fresh]).Largest() < 1e-9);
@@ -315,8 +315,8 @@ TEST_CASE("updated system: whole runs in space end with the same steps and force
       problem.contacts.push_back({ContactKind::kStatic, static_cast<double>(choices.Integer(1, 8)) / 4, {}});
     const std::vector<FrictionPolygon<double>> polygons(contacts, FrictionPolygon<double>(8));
     CompleteDriving<double> updated, fresh;
-    updated.options().update_from = 4;
-    fresh.options().update_from = kNever;
+    updated.UpdateFrom(4);
+    fresh.UpdateFrom(kNever);
     const auto verdict = updated.Run(problem, polygons), expected = fresh.Run(problem, polygons);
     REQUIRE(expected.outcome == Outcome::kSolved);
     CHECK(verdict.outcome == expected.outcome);
