@@ -40,7 +40,6 @@
 
 #include "bench/dials.h"
 #include "bench/progress.h"
-#include "bench/rungs.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "certify/exact/neighbour.h"
@@ -49,6 +48,7 @@
 #include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 
 namespace stiction {
 namespace {
@@ -95,13 +95,23 @@ std::vector<std::string_view> AllOverDoubles() {
   return names;
 }
 
-// What the arithmetic is given; null where it does not hold a number.
-const ExactProblem* GivenTo(Arithmetic arithmetic, const RungProblem& problem) {
-  if (arithmetic == Arithmetic::kExact) return &problem.exact();
-  const bool narrow = arithmetic == Arithmetic::kFloat;
-  const bool holds = narrow ? problem.in_float().has_value() : problem.in_double().has_value();
-  return holds ? &problem.Given(narrow ? Arithmetic::kFloat : Arithmetic::kDouble) : nullptr;
-}
+// A problem as every arithmetic gets it; empty where it does not hold a number.
+struct GivenProblem {
+  std::optional<ExactProblem> as_it_is, in_double = In<double>(), in_float = In<float>();
+
+  template <class Scalar>
+  std::optional<ExactProblem> In() const {
+    try {
+      return Unrounded(Rounded<Scalar>(*as_it_is));
+    } catch (const RangeError&) {
+      return std::nullopt;
+    }
+  }
+  const std::optional<ExactProblem>& To(Arithmetic arithmetic) const {
+    if (arithmetic == Arithmetic::kExact) return as_it_is;
+    return arithmetic == Arithmetic::kFloat ? in_float : in_double;
+  }
+};
 
 std::optional<std::string> MissOf(const ExactProblem& given, const ExactVector& f, FrictionLaw law,
                                   const Gate& gate) {
@@ -136,9 +146,9 @@ Json WrongJson(const GateCell& cell, std::int64_t index, const std::string& miss
 }
 
 // One problem in one cell.
-void RunOne(const RungProblem& problem, std::int64_t index, GateCell& cell, Json& wrong) {
-  const ExactProblem* given = GivenTo(cell.arithmetic, problem);
-  if (given == nullptr) {
+void RunOne(const GivenProblem& problem, std::int64_t index, GateCell& cell, Json& wrong) {
+  const std::optional<ExactProblem>& given = problem.To(cell.arithmetic);
+  if (!given) {
     ++cell.refused;
     return;
   }
@@ -272,7 +282,7 @@ void RunRounds(const std::vector<Source>& sources, std::int64_t problems, std::u
     for (const Source& source : sources) {
       const std::int64_t every = source.is_large ? kLargeEvery : 1;
       if (round % every != 0 || place >= problems) continue;
-      const RungProblem problem(source.make(seed, round));
+      const GivenProblem problem{source.make(seed, round)};
       Json wrong = Json::array();
       for (GateCell& cell : counts.methods[static_cast<std::size_t>(round / every) % counts.methods.size()]) {
         cell.source = &source;
@@ -330,7 +340,7 @@ int BenchGate(const BenchOptions& o) {
     std::vector<GateCell> of_source =
         CellsOf(source, dimension, AllOverDoubles(), {kFloat, kDouble, kQuad, kFiltered});
     for (std::int64_t index = 0; index < problems; ++index) {
-      const RungProblem problem(source.make(o.seed, index));
+      const GivenProblem problem{source.make(o.seed, index)};
       for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);
       progress::Done();
     }

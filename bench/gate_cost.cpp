@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench --suite gate-cost: what it costs to judge forces, beside LU of the same A: every answer pays it.
 //
-// Problems of family.h, forces of the fast method, which the gate lets pass. A time is that of a block of
-// problems, one after another, the less of wall-clock time and processor time; LU (Eigen, partial pivoting,
-// with one solve) and the gate take turns at blocks.
+// Problems A = J J' + I, J square, of integers up to 1000, b up to 10^6; forces of the fast method, which the
+// gate lets pass. A time is that of a block of problems, one after another, the less of wall-clock time and
+// processor time; LU (Eigen, partial pivoting, with one solve) and the gate take turns at blocks.
 
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <iostream>
 
-#include "bench/family.h"
 #include "bench/measure.h"
 #include "bench/one_thread.h"
 #include "bench/progress.h"
@@ -21,6 +21,7 @@
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/stopwatch.h"
+#include "search/generators/choices.h"
 #include "solver/numeric/fast.h"
 #include "solver/problem/gate.h"
 
@@ -32,11 +33,29 @@ struct Judged {
   Eigen::VectorXd f;
 };
 
+ContactProblem<double> Definite(int contacts, Choices& choices) {
+  constexpr std::array kFrictions = {0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
+  const auto draw = [&choices](int rows, int columns, int most) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns,
+                                        [&] { return static_cast<double>(choices.Integer(-most, most)); });
+  };
+  ContactProblem<double> problem;
+  for (int i = 0; i < contacts; ++i)
+    problem.contacts.push_back(
+        {ContactKind::kStatic, kFrictions[choices.Integer(0, kFrictions.size() - 1)], {}});
+  const Eigen::MatrixXd J = draw(2 * contacts, 2 * contacts, 1000);
+  problem.A = J * J.transpose();
+  problem.A.diagonal().array() += 1;
+  problem.b = draw(2 * contacts, 1, 1000000);
+  return problem;
+}
+
 std::vector<Judged> SolvedProblems(int contacts, std::int64_t count, std::uint64_t seed) {
   FastSolver<double> fast;
   std::vector<Judged> solved;
   for (std::int64_t index = 0; index < count; ++index) {
-    ContactProblem<double> problem = MakeBenchProblem({}, contacts, seed, index).rounded;
+    Choices choices(ProblemSeed(seed, static_cast<std::uint64_t>(contacts), static_cast<std::uint64_t>(index)));
+    ContactProblem<double> problem = Definite(contacts, choices);
     if (fast.Run(problem).outcome == Outcome::kSolved) solved.push_back({std::move(problem), fast.f()});
   }
   return solved;

@@ -17,16 +17,4 @@ Spread SpreadOf(std::vector<double> values) {
   return {values.front(), values[values.size() / 2], values.back()};
 }
 
-std::optional<std::string> FindMismatch(std::span<const NamedMeasure> measures) {
-  const NamedMeasure* solves = nullptr;
-  const NamedMeasure* refutes = nullptr;
-  for (const NamedMeasure& m : measures) {
-    if (m.exact && m.measure.wrong) return m.name + " returns what is no solution";
-    if (m.exact && m.measure.Solved()) solves = &m;
-    if (m.measure.refutes) refutes = &m;
-  }
-  if (solves == nullptr || refutes == nullptr) return std::nullopt;
-  return refutes->name + " finds no solution, " + solves->name + " does";
-}
-
 }  // namespace stiction

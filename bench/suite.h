@@ -30,19 +30,14 @@ inline constexpr std::array kSuites = {
           "per run at two contacts, a quarter for each contact more, and a twentieth for a unit of the default "
           "mix (default 200000)",
           kMaxContacts, ""},
-    Suite{"trade", "speed against accuracy: every method over every arithmetic, on the generators",
-          "of a row (default 60)", kMaxContacts, ""},
-    Suite{"extremes", "the same along dials: masses, levers, units, conditioning, friction, ...",
-          "of a row (default 25)", kMaxContacts, ""},
+    Suite{"problems", "those of the studies trade and extremes, a line of JSON for each setting of a dial",
+          "of a setting of a dial, or of a generator at --contacts (default 25)", kMaxContacts, ""},
     Suite{"silent", "wrong answers that say nothing of it, counted over generators and dials",
           "in all (default 20000)", kMaxContacts, ""},
     Suite{"gate", "whether all that is called solved is, and what is left undecided, along dials",
           "of a setting of a dial (default 25)", kMaxContacts, ""},
     Suite{"gate-cost", "what it costs to judge forces, beside LU of the same A",
           "at most, of each number of contacts (default 400)", 100, ""},
-    Suite{"methods", "the methods side by side: times", "of each number of contacts (default 800)", 30, ""},
-    Suite{"frictionless", "section 4 beside elimination and quadratic programs, to 150 contacts",
-          "at most, of each number of contacts (default 48)", kMostOfAnySuite, ""},
     Suite{"scenes",
           "frames a second of the scenes of a folder, minimal and full models, or one thread and more", "",
           kMaxContacts, ""},
@@ -75,20 +70,16 @@ struct BenchOptions {
   std::string scenes = "corpus/scenes";  // folder
   std::vector<std::string> families;     // of problems with structure; empty: all
   int threads = 1;                       // of a simulation, of `silent`
-  std::string csv;                       // a file for the lines of trade and extremes
   bool json = false;
 };
 
 // InputError names what is wrong with the options.
-int BenchSearch(const BenchOptions& options);        // search_rate.cpp
-int BenchTrade(const BenchOptions& options);         // ladder.cpp: exit 1 where an answer is silently wrong
-int BenchExtremes(const BenchOptions& options);      // likewise
-int BenchSilent(const BenchOptions& options);        // gate.cpp: exit 1 where an answer is wrong
-int BenchGate(const BenchOptions& options);          // likewise
-int BenchGateCost(const BenchOptions& options);      // gate_cost.cpp
-int BenchMethods(const BenchOptions& options);       // methods.cpp: exit 1 where methods contradict each other
-int BenchFrictionless(const BenchOptions& options);  // likewise
-int BenchScenes(const BenchOptions& options);        // scenes.cpp
+int BenchSearch(const BenchOptions& options);    // search_rate.cpp
+int BenchProblems(const BenchOptions& options);  // dials.cpp
+int BenchSilent(const BenchOptions& options);    // gate.cpp: exit 1 where an answer is wrong
+int BenchGate(const BenchOptions& options);      // likewise
+int BenchGateCost(const BenchOptions& options);  // gate_cost.cpp
+int BenchScenes(const BenchOptions& options);    // scenes.cpp
 // Becomes the program stiction-peers, which stands beside this one (bench/peers).
 int BenchPeers(const BenchOptions& options, std::string_view tables);
 

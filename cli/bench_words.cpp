@@ -24,7 +24,7 @@ std::string MostContacts() {
   std::string most;
   for (const Suite& suite : kSuites)
     most += fmt::format("{}{} {}", most.empty() ? "" : ", ", suite.name, suite.most_contacts);
-  return fmt::format("At most: {}; {} with a generator", most, kMaxContacts);
+  return "At most: " + most;
 }
 
 std::string WhatProblemsCount() {
@@ -59,12 +59,9 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
       .Details("peers, random, structure: 0.06 seconds each for a row and size");
   verb.Option("--seed", words.seed, "of the problems")
       .Range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max()));
-  verb.Option("-g,--generator", words.generator, "search: this one alone")
-      .OneOf(GeneratorNames())
-      .Details("methods: instead of the positive definite family");
+  verb.Option("-g,--generator", words.generator, "search: this one alone").OneOf(GeneratorNames());
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
-  verb.Option("--families", o.families, "structure, engines, extremes, silent, gate: these alone");
-  verb.Option("--csv", o.csv, "trade, extremes: a file for the lines, with intervals");
+  verb.Option("--families", o.families, "structure, engines, problems, silent, gate: these alone");
   verb.Option("-t,--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")
       .Range(1, 1024);

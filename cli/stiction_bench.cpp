@@ -22,24 +22,16 @@ using namespace stiction;
 
 // By the name of a suite that stiction-bench measures itself.
 const std::map<std::string_view, int (*)(const BenchOptions&)> kFunctions = {
-    {"search", BenchSearch},   {"trade", BenchTrade},   {"extremes", BenchExtremes},
-    {"silent", BenchSilent},   {"gate", BenchGate},     {"gate-cost", BenchGateCost},
-    {"methods", BenchMethods}, {"scenes", BenchScenes}, {"frictionless", BenchFrictionless}};
+    {"search", BenchSearch}, {"problems", BenchProblems},  {"silent", BenchSilent},
+    {"gate", BenchGate},     {"gate-cost", BenchGateCost}, {"scenes", BenchScenes}};
 
 int RunBench(const BenchWords& words) {
   const BenchOptions o = words.Options();
   const auto suite = std::find_if(kSuites.begin(), kSuites.end(), [&o](auto& s) { return s.name == o.suite; });
-  const int most = o.generator ? kMaxContacts : suite->most_contacts;
   for (const int contacts : o.contacts) {
-    if (contacts > most) {
-      throw InputError(fmt::format("bench: --contacts: found {}, expected 1 to {} for suite {}{}", contacts,
-                                   most, o.suite, o.generator ? " with a generator" : ""));
-    }
-  }
-  if (o.generator && !Row(*o.generator).IsPlain() && o.suite != "search") {
-    throw InputError(
-        fmt::format("bench: --generator: found {}, expected one of static contacts of the plane for suite {}",
-                    Row(*o.generator).name, o.suite));
+    if (contacts > suite->most_contacts)
+      throw InputError(fmt::format("bench: --contacts: found {}, expected 1 to {} for suite {}", contacts,
+                                   suite->most_contacts, o.suite));
   }
   return suite->tables.empty() ? kFunctions.at(suite->name)(o) : BenchPeers(o, suite->tables);
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -21,6 +22,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/neighbour.h"
 #include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
@@ -38,6 +40,7 @@
 #include "corpus/output_error.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
+#include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
 #include "python/many.h"
 #include "python/search.h"
@@ -96,6 +99,10 @@ class PythonProblem {
     return {dense_->name, problem.dimension, problem.contacts, problem.b, dense_->factors};
   }
   std::string Text() const { return sparse_ ? Print(*sparse_) : Print(*dense_); }
+  template <class Scalar>
+  PythonProblem In() {
+    return PythonProblem(ProblemFile{file().name, Unrounded(Rounded<Scalar>(problem())), {}, {}, {}});
+  }
   std::variant<ProblemFile, SparseProblem> AsRead() const {
     if (dense_) return *dense_;
     return *sparse_;
@@ -308,28 +315,51 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
 
 // How a method ends on each of several problems: by problem.
 struct Ends {
-  std::vector<std::string> outcomes;
+  std::vector<std::string> outcomes, decided_on;              // the rung of a filtered run, otherwise empty
   std::vector<double> seconds;                                // of processor time, of the call alone
+  std::vector<double> residuals;                              // of what is judged
   std::map<std::string, std::vector<std::int64_t>> counters;  // 0 where a run has none of this name
 };
 
+// The largest error of forces that are called solved, over rationals; NaN of others.
+double LargestErrorOf(const ExactProblem& problem, const Request& request, const Solution& solution) {
+  if (solution.outcome() != Outcome::kSolved) return std::numeric_limits<double>::quiet_NaN();
+  if (const auto* exact = std::get_if<ExactAnswer>(&solution.answer)) return ExactResidual(problem, exact->f);
+  const Eigen::VectorXd& f = std::get<InexactAnswer>(solution.answer).f;
+  if (!f.allFinite()) return std::numeric_limits<double>::infinity();
+  return ExactResidual(problem, f.unaryExpr([](double x) { return Rational(x); }),
+                       request.arithmetic == Arithmetic::kFloat ? GateOf<float>() : GateOf<double>());
+}
+
 py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::string& method,
                         const std::string& arithmetic, const std::string& policy, const std::string& law,
-                        int sides, const Numbers& numbers) {
+                        int sides, const Numbers& numbers, bool confirm,
+                        const std::vector<PythonProblem*>& judged) {
   Wanted wanted{.method = method, .arithmetic = arithmetic, .policy = policy, .law = law, .dashes = ""};
   wanted.request.sides = sides;
   SetNumbers(wanted.request.limits, numbers);
-  for (PythonProblem* problem : problems) problem->file();
+  wanted.request.confirm = confirm;
+  for (const auto* some : {&problems, &judged}) {
+    for (PythonProblem* problem : *some) problem->file();
+  }
   const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
     Ends all;
     for (PythonProblem* problem : problems) {
       if (*stop) break;
       Request request = RequestOf(wanted, problem->problem(), kSource);
       request.limits.stop = stop;
+      // Doubles are timed without the rounding of the problem.
+      std::optional<ContactProblem<double>> rounded;
+      if (request.arithmetic == Arithmetic::kDouble) rounded = Rounded<double>(problem->problem());
       const Stopwatch watch;
-      const Solution solution = SolveAsked(problem->problem(), request, kSource);
+      const Solution solution =
+          rounded ? SolveDoubles(*rounded, request) : SolveAsked(problem->problem(), request, kSource);
       all.seconds.push_back(watch.Seconds());
+      if (!judged.empty())
+        all.residuals.push_back(LargestErrorOf(judged[all.outcomes.size()]->problem(), request, solution));
       all.outcomes.emplace_back(Name(solution.outcome()));
+      const auto rung = std::visit([](const auto& answer) { return answer.rung; }, solution.answer);
+      all.decided_on.emplace_back(rung ? Name(*rung) : "");
       const Counters counters = std::visit([](const auto& answer) { return answer.counters; }, solution.answer);
       counters.ForEach([&](Counter c, std::int64_t value) {
         auto& column = all.counters[std::string(Name(c))];
@@ -339,7 +369,7 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
     }
     return all;
   });
-  return py::make_tuple(ends.outcomes, ends.seconds, ends.counters);
+  return py::make_tuple(ends.outcomes, ends.seconds, ends.counters, ends.decided_on, ends.residuals);
 }
 
 // Problems of the one generator and number of contacts that a campaign names, from the number `first` on. They
@@ -527,6 +557,7 @@ PYBIND11_MODULE(_stiction, module) {
       .def_static("read", [](const std::string& file) { return PythonProblem(ReadAnySize(file)); })
       .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, p.Text()); })
       .def("text", &PythonProblem::Text)
+      .def("rounded", [](PythonProblem& p, bool narrow) { return narrow ? p.In<float>() : p.In<double>(); })
       .def("digest", [](PythonProblem& p) { return ProblemDigest(p.problem()); })
       .def_property_readonly("name", [](const PythonProblem& p) { return p.All().name; })
       .def_property_readonly("dimension", [](const PythonProblem& p) { return p.All().dimension; })

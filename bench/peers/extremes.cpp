@@ -23,7 +23,7 @@
 #include "bench/dials.h"
 #include "bench/peers/rows.h"
 #include "bench/progress.h"
-#include "bench/rungs.h"
+#include "certify/exact/neighbour.h"
 #include "certify/exact/solve.h"
 #include "corpus/atomic_file.h"
 #include "corpus/json.h"

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "bench/peers/native_lu.h"
-#include "bench/plain_gauss.h"
+#include "bench/peers/plain_gauss.h"
 #include "certify/exact/answer_json.h"
 #include "solver/complete/complete.h"
 #include "solver/lemke/lemke.h"

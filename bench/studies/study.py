@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the studies share: their options, and tables in Markdown."""
+"""What the studies share: their options, problems, times, and tables in Markdown."""
 
 import argparse
+import os
+import random
+import resource
 import sys
 
 import numpy as np
 
 import stiction
+
+PROGRAM = os.path.join(os.path.dirname(stiction.__file__), "../../../stiction")
+FRICTIONS = ("0", "1/5", "1/2", "1", "2", "5", "10", "mixed")
 
 
 def options(text, **defaults):
@@ -33,6 +39,89 @@ def run(main):
         sys.exit(2)
 
 
+def say(text=""):
+    """How far it is, on a terminal."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+
+
+def chunks(problems, size=1000):
+    """(first, count) of parts of so many problems."""
+    for first in range(0, problems, size):
+        say(f"{first:,} of {problems:,}")
+        yield first, min(size, problems - first)
+    say()
+
+
+# ---- Problems, and how methods end on them -------------------------------------------------------------------
+
+
+def definite(rows, numbers, rows_per_contact=2):
+    """A = J J' + I, J square, of integers up to 1000; b of integers up to 10^6, a normal's made <= 0 with probability 3/5."""
+    J = np.array([[numbers.randint(-1000, 1000) for _ in range(rows)] for _ in range(rows)])
+    b = [numbers.randint(-10 ** 6, 10 ** 6) for _ in range(rows)]
+    b = [-abs(x) if row % rows_per_contact == 0 and numbers.random() < 0.6 else x for row, x in enumerate(b)]
+    return J @ J.T + np.eye(rows, dtype=int), np.array(b)
+
+
+def draw(generator, contacts, index, seed):
+    """A problem of the generator, by default of `definite`, of which ties are improbable. mu is 0, 1/5, 1/2, 1, 2, 5 or
+    10 at all contacts, or mixed, an eighth of the problems each."""
+    friction = FRICTIONS[index % len(FRICTIONS)]
+    if generator:
+        mu = FRICTIONS[:-1] if friction == "mixed" else friction
+        return stiction.draw(generator, contacts, 1, seed, mu=mu, first=index)[0]
+    numbers = random.Random(f"{seed} {contacts} {index}")
+    A, b = definite(2 * contacts, numbers)
+    return stiction.Problem(A, b, [numbers.choice(FRICTIONS[:-1]) if friction == "mixed" else friction
+                                   for _ in range(contacts)])
+
+
+def solved(problems, method, arithmetic, policy="paper", judge=None, repeat=3):
+    """The columns of `solve_all`, suspicions as they are and answers judged; `seconds` are the least of several calls, of
+    Ipopt those of its process too."""
+    judge = problems if judge is None else judge
+    if "ipopt" in method:
+        return in_process(problems, method, arithmetic)
+    run = stiction.solve_all(problems, method, arithmetic, policy, confirm=False, judge=judge)
+    for _ in range(repeat - 1):
+        again = stiction.solve_all(problems, method, arithmetic, policy, confirm=False)
+        run["seconds"] = np.minimum(run["seconds"], again["seconds"])
+    return run
+
+
+def in_process(problems, method, arithmetic):
+    runs = []
+    for problem in problems:
+        before = children_seconds()
+        run = stiction.solve_all([problem], method, arithmetic, judge=[problem])
+        run["seconds"] += children_seconds() - before
+        runs.append(run)
+    return {name: np.concatenate([run[name] for run in runs]) for name in ("outcome", "seconds", "residual")}
+
+
+def children_seconds():
+    """Processor time of processes that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def contradictions(runs):
+    """Of how many problems one exact run says that it is solved and another that there is no solution, or calls solved
+    what is not. runs: how many problems stand for one that it was given, and its columns."""
+    most = max(every * len(run["outcome"]) for every, run in runs)
+    is_solved, refuted, wrong = (np.zeros(most, bool) for _ in range(3))
+    for every, run in runs:
+        places = every * np.arange(len(run["outcome"]))
+        is_solved[places] |= run["outcome"] == "solved"
+        refuted[places] |= np.isin(run["outcome"], ("ray", "no-solution"))
+        wrong[places] |= run.get("residual", np.zeros(len(places))) > 0
+    return int((is_solved & refuted | wrong).sum())
+
+
+# ---- Numbers and tables --------------------------------------------------------------------------------------
+
+
 def show(head, rows):
     """A table."""
     for line in (head, ["---"] * len(head), *rows):
@@ -40,17 +129,18 @@ def show(head, rows):
     print(flush=True)
 
 
-def chunks(problems, size=1000):
-    """(first, count) of parts of so many problems; on a terminal it says how far it is."""
-    for first in range(0, problems, size):
-        if sys.stderr.isatty():
-            end = "\r\033[K" if first + size >= problems else ""
-            print(f"\r\033[K{first:,} of {problems:,}", end=end, file=sys.stderr, flush=True)
-        yield first, min(size, problems - first)
+def quartiles(values, unit=1):
+    """The values of rank n/4, n/2, 3n/4; None of none."""
+    ranked = sorted(float(x) * unit for x in values)
+    return [ranked[k * len(ranked) // 4] for k in (1, 2, 3)] if ranked else None
 
 
 def number(x):
-    """Text as it is, whole numbers in full, others in three digits."""
+    """Text as it is, whole numbers in full, others in three digits; quartiles as the median and the others."""
+    if x is None:
+        return ""
+    if isinstance(x, list):
+        return f"{number(x[1])} ({number(x[0])} - {number(x[2])})"
     if isinstance(x, (float, np.floating)):
         return f"{x:,.0f}" if abs(x) >= 1000 else f"{x:.3g}"
     return f"{x:,}" if isinstance(x, (int, np.integer)) else str(x)

@@ -1,50 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the methods do on the same problems: outcomes, counts, folds, give-ups, and the starts of Ipopt.
 
-Without a generator A = J J' + I, J square, of integers up to 1000; b of integers up to 10^6, a normal's made <= 0 with
-probability 3/5: ties do not occur. mu is 0, 1/5, 1/2, 1, 2, 5 or 10 at all contacts, or mixed, an eighth of the
-problems each. Runs are exact, and what they call solved is verified. Exit 1 where one method contradicts another.
-Ipopt, and the enumeration of all contact modes of up to four contacts, are given every tenth and twentieth problem."""
+Problems as in study.py. Runs are exact, and what they call solved is verified. Exit 1 where one method contradicts
+another. Ipopt, and the enumeration of all contact modes of up to four contacts, are given every tenth and twentieth
+problem."""
 
 import collections
-import random
 import sys
 
 import numpy as np
 
 import stiction
 import study
+from study import FRICTIONS
 
-FRICTIONS = ("0", "1/5", "1/2", "1", "2", "5", "10", "mixed")
 # Method and policy, and what it counts; one in so many problems.
 METHODS = {("complete", "paper"): ("pieces", 1), ("baraff", "paper"): ("steps", 1),
            ("baraff", "apex=suspended"): ("steps", 1), ("baraff", "admit=eager,file=yes,apex=suspended"): ("steps", 1),
            ("lemke", "paper"): ("pivots", 1), ("ipopt", "paper"): ("starts", 10),
            ("enumerate", "paper"): ("programs", 20)}
 COMPLETE, BARAFF, IPOPT = ("complete", "paper"), [key for key in METHODS if key[0] == "baraff"], ("ipopt", "paper")
-
-
-def draw(generator, contacts, index, seed):
-    friction = FRICTIONS[index % len(FRICTIONS)]
-    if generator:
-        mu = FRICTIONS[:-1] if friction == "mixed" else friction
-        return stiction.draw(generator, contacts, 1, seed, mu=mu, first=index)[0]
-    numbers = random.Random(f"{seed} {contacts} {index}")
-    rows = 2 * contacts
-    J = np.array([[numbers.randint(-1000, 1000) for _ in range(rows)] for _ in range(rows)])
-    b = [numbers.randint(-10 ** 6, 10 ** 6) for _ in range(rows)]
-    b = [-abs(x) if row % 2 == 0 and numbers.random() < 0.6 else x for row, x in enumerate(b)]
-    mu = [numbers.choice(FRICTIONS[:-1]) if friction == "mixed" else friction for _ in range(contacts)]
-    return stiction.Problem(J @ J.T + np.eye(rows, dtype=int), np.array(b), mu)
-
-
-def contradictions(runs):
-    """How many problems one method solves and another refutes."""
-    solved, refuted = (np.zeros(len(runs[COMPLETE]["outcome"]), bool) for _ in range(2))
-    for (_, every), run in ((METHODS[key], run) for key, run in runs.items()):
-        solved[::every] |= run["outcome"] == "solved"
-        refuted[::every] |= np.isin(run["outcome"], ("ray", "no-solution"))
-    return int((solved & refuted).sum())
 
 
 def work_rows(contacts, runs):
@@ -62,10 +37,10 @@ def main():
     work, folds, starts, wrong = [], collections.defaultdict(list), [], 0
     pairs = {key: collections.Counter() for key in BARAFF}
     for contacts in o.contacts:
-        problems = [draw(o.generator, contacts, index, o.seed) for index in range(o.problems)]
+        problems = [study.draw(o.generator, contacts, index, o.seed) for index in range(o.problems)]
         runs = {key: stiction.solve_all(problems[::every], key[0], "exact", key[1])
                 for key, (_, every) in METHODS.items() if key[0] != "enumerate" or contacts <= 4}
-        wrong += contradictions(runs)
+        wrong += study.contradictions([(METHODS[key][1], run) for key, run in runs.items()])
         work += work_rows(contacts, runs)
         complete = runs[COMPLETE]
         for i, fold in enumerate(zip(complete["folds"] > 0, complete["descents"] > 0)):

@@ -228,4 +228,10 @@ std::optional<std::string> FindMiss(const ExactProblem& problem, const ExactVect
   return CheckNeighbour(problem, f, law, gate, MakeNeighbour(problem, f, law, gate));
 }
 
+double ExactResidual(const ExactProblem& problem, const ExactVector& f, const Gate& gate) {
+  ErrorMeter<Rational> meter;
+  const ExactVector a = Accelerations(problem, f);
+  return ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, meter, Rational(gate.theta())).Largest());
+}
+
 }  // namespace stiction

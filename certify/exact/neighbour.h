@@ -44,6 +44,9 @@ std::optional<std::string> CheckNeighbour(const ExactProblem& problem, const Exa
 std::optional<std::string> FindMiss(const ExactProblem& problem, const ExactVector& f, FrictionLaw law,
                                     const Gate& gate);
 
+// How far the nearest neighbour is: the largest error by the theta of a gate, over rationals, rounded.
+double ExactResidual(const ExactProblem& problem, const ExactVector& f, const Gate& gate = GateOf<double>());
+
 }  // namespace stiction
 
 #endif  // STICTION_CERTIFY_EXACT_NEIGHBOUR_H_

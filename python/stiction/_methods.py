@@ -244,20 +244,32 @@ def solve(problem: Problem, method: str = "auto", arithmetic: str = "", policy: 
 
 def solve_all(problems: Sequence[Problem], method: str = "auto", arithmetic: str = "", policy: str = "paper", *,
               law: str = "", sides: int = 8, max_drives: int | None = None, max_pivots: int | None = None,
-              max_bits: int | None = None) -> dict[str, NDArray[Any]]:
+              max_bits: int | None = None, confirm: bool = True,
+              judge: Sequence[Problem] | None = None) -> dict[str, NDArray[Any]]:
     """How a method ends on each of many problems, in one call: columns with a number for each problem.
 
-    `outcome`, `seconds` of processor time, and the counters of the method by name, as `solve` has them in
-    `statistics`. Forces are not kept: `solve` gives those of one. Ctrl-C as in `solve`.
+    `outcome`, `seconds` of processor time on numbers that are in memory, and the counters of the method by name, as
+    `solve` has them in `statistics`; `decided_on` of filtered runs: double, double-double or exact. With `judge`, as many
+    problems, `residual` is the largest error of forces that are called solved on these, over rationals, NaN of others.
+    Without `confirm` a suspicion of doubles is told as it is. Forces are not kept: `solve` gives those of one. Ctrl-C as
+    in `solve`.
     """
     require_text(method=method, arithmetic=arithmetic, policy=policy, law=law)
     if isinstance(problems, Problem):
         raise TypeError("solve_all: problems: found one stiction.Problem, expected a sequence of them; solve takes one")
-    outcomes, seconds, counters = _stiction.solve_all(
+    if judge is not None and len(judge) != len(problems):
+        raise ValueError(f"solve_all: judge: found {len(judge)} problems, expected {len(problems)}")
+    outcomes, seconds, counters, decided_on, residuals = _stiction.solve_all(
         [compiled(problem, "solve_all") for problem in problems], method, arithmetic, policy, law,
-        integer("sides", sides), chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits))
-    return {"outcome": np.array(outcomes, dtype=str), "seconds": np.array(seconds, dtype=np.float64),
-            **{name: np.array(column, dtype=np.int64) for name, column in counters.items()}}
+        integer("sides", sides), chosen(max_drives=max_drives, max_pivots=max_pivots, max_bits=max_bits), confirm,
+        [compiled(problem, "solve_all") for problem in judge or ()])
+    columns = {"outcome": np.array(outcomes, dtype=str), "seconds": np.array(seconds, dtype=np.float64),
+               **{name: np.array(column, dtype=np.int64) for name, column in counters.items()}}
+    if any(decided_on):
+        columns["decided_on"] = np.array(decided_on, dtype=str)
+    if judge is not None:
+        columns["residual"] = np.array(residuals, dtype=np.float64)
+    return columns
 
 
 def replay(problem: Problem, policy: str = "paper", method: str = "baraff", *, arithmetic: str = "",

@@ -183,6 +183,12 @@ class Problem:
         """Of each contact that slides its direction, of one component in the plane and two in space."""
         return [tuple(Fraction(x) for x in slip) or None for slip in self._problem.exact_slips()]
 
+    def rounded(self, arithmetic: str = "double") -> Problem:
+        """As 'float' or 'double' holds it, number by number; ValueError names one that is too large or too small."""
+        if arithmetic not in ("float", "double"):
+            raise ValueError(f"rounded: arithmetic: found {arithmetic!r}, expected float or double")
+        return wrapped(self._problem.rounded(arithmetic == "float"))
+
     @property
     def digest(self) -> str:
         """Of all that is exact in it, as certificates name it."""

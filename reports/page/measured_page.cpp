@@ -72,8 +72,8 @@ Html MeasuredSentences(const std::vector<RungLine>& lines) {
 
 Html Again(const std::vector<std::filesystem::path>& files) {
   std::string commands =
-      "stiction bench --suite trade --csv trade.csv\nstiction bench --suite extremes --csv "
-      "extremes.csv\nstiction report --bench";
+      "./run bench --suite trade --csv trade.csv\n./run bench --suite extremes --csv extremes.csv\n"
+      "./run report --bench";
   for (const auto& file : files) commands += " " + BenchName(file);
   return Section(
       "again", "Reproducing it",

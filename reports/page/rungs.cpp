@@ -99,8 +99,8 @@ std::vector<std::pair<std::string, std::vector<RungSum>>> Families(const std::ve
 Html NotMeasured() {
   return Html(
       "<p>Not measured for this report: how fast each method is over each arithmetic, and how often it errs, "
-      "on ordinary and on extreme problems. In the folder of the sources:</p>\n<pre><code>stiction bench "
-      "--suite trade --csv trade.csv\nstiction bench --suite extremes --csv extremes.csv\nstiction report "
+      "on ordinary and on extreme problems. In the folder of the sources:</p>\n<pre><code>./run bench "
+      "--suite trade --csv trade.csv\n./run bench --suite extremes --csv extremes.csv\n./run report "
       "STORE --bench trade.csv extremes.csv -o DIR</code></pre>\n");
 }
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <set>
 
-#include "bench/rungs.h"
 #include "certify/exact/exact.h"
+#include "certify/exact/neighbour.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/json.h"

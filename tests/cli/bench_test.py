@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """stiction bench: what its tables say is consistent, and but for times the same again. Never how fast."""
 
+import json
 import os
 import unittest.mock
 
@@ -111,77 +112,21 @@ class PeersExtremes(cli.TestCase):
                         self.assertEqual(line["solved"], line["tried"])
 
 
-@unittest.skipUnless(cli.ALL, "long")
-class Methods(cli.TestCase):
-    SIZES, PROBLEMS = [2, 3], 48
+class Problems(cli.TestCase):
+    """What the studies trade and extremes are given."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls.first = cls.bench()
-
-    @classmethod
-    def bench(cls, *more):
-        return cli.run("bench", "--suite", "methods", "--json", "--contacts", *cls.SIZES, "--problems", cls.PROBLEMS, *more)
-
-    def tables(self, done=None):
-        done = done or self.first
-        self.assertEqual(done.code, 0, done.err)
-        self.assertPlain(done)
-        return done.json()
-
-    @staticmethod
-    def untimed(tables):
-        return [{key: cell for key, cell in row.items() if key not in ("us", "ratio")} for row in tables["times"]]
-
-    def test_everything_but_times_is_the_same_again(self):
-        self.assertEqual(self.untimed(self.tables(self.bench())), self.untimed(self.tables()))
-        other = self.tables(self.bench("--generator", "duplicates", "--seed", "2"))
-        self.assertEqual((other["seed"], other["generator"]), (2, "duplicates"))
-
-    def test_methods_that_must_solve_a_definite_problem_do(self):
-        tables = self.tables()
-        self.assertEqual((tables["mismatches"], tables["generator"]), ([], "definite"))
-        for method in [("complete", "", "exact"), ("lemke", "ones", "exact"), ("lemke", "units", "exact"),
-                       ("enumerate", "", "exact"), ("complete", "", "double"), ("lemke", "units", "double")]:
-            rows = [row for row in tables["times"] if (row["method"], row["reading"], row["arithmetic"]) == method]
-            self.assertEqual([row["contacts"] for row in rows], self.SIZES)
-            for row in rows:
-                self.assertEqual((row["solved"], row["wrong"]), (row["problems"], 0), row)
-
-    def test_times_are_quartiles_of_positive_numbers(self):
-        for row in self.tables()["times"]:
-            self.assertLessEqual(row["solved"] + row["wrong"], row["problems"])
-            self.assertLessEqual(row["problems"], self.PROBLEMS)
-            for key in ("us", "ratio"):
-                low, median, high = row[key]
-                self.assertTrue(0 < low <= median <= high, row)
-            if (row["method"], row["arithmetic"]) == ("complete", "double"):
-                self.assertEqual(row["ratio"], [1, 1, 1])
-
-    def test_the_text_has_the_numbers_of_the_json(self):
-        done = self.succeeds("bench", "--suite", "methods", "--contacts", "2", "--problems", "8")
-        self.assertIn("0 mismatches", done.out)
-        for word in ["apex=suspended", "enumerate", "(17), (18)"]:
-            self.assertIn(word, done.out)
-        self.assertRegex(done.out, r"(?m)^ +2  complete +exact +8 +8 +0 ")
-
-
-class Frictionless(cli.TestCase):
-    def test_section_4_beside_elimination_and_quadratic_programs(self):
-        done = cli.run("bench", "--suite", "frictionless", "--json", "--contacts", 4, 60, "--problems", 2)
-        self.assertEqual(done.code, 0, done.err)
-        tables = done.json()
-        self.assertEqual((tables["suite"], tables["mismatches"]), ("frictionless", []))
-        self.assertEqual(set(tables["one_thread"]["variables"].values()), {"1"})
-        rows = tables["frictionless"]
-        self.assertEqual([(row["contacts"], row["problems"]) for row in rows], [(4, 2), (60, 2)])
-        for row in rows:
-            for method in ["baraff", "lemke", "fast", "ipopt", "qp"]:
-                self.assertEqual(row[f"{method} solved"], 2, row)
-            for ratio in ["baraff/gauss", "lemke/baraff", "fast/baraff", "ipopt/baraff", "qp/baraff"]:
-                low, median, high = row[ratio]
-                self.assertTrue(0 < low <= median <= high, row)
-            self.assertGreater(row["qp us"][1], row["gauss us"][1])
+    def test_a_line_for_each_setting_and_the_same_again(self):
+        words = ("bench", "--suite", "problems", "--families", "masses", "range", "--problems", 2)
+        done = self.succeeds(*words)
+        sources = [json.loads(line) for line in done.out.splitlines()]
+        self.assertEqual({source["family"]: source["has_solution"] for source in sources}, {"masses": True, "range": False})
+        for source in sources:
+            self.assertEqual([problem["format"] for problem in source["problems"]], ["stiction-problem"] * 2)
+        self.assertEqual(self.succeeds(*words).out, done.out)
+        self.assertNotEqual(self.succeeds(*words, "--seed", 2).out, done.out)
+        generated = self.succeeds("bench", "--suite", "problems", "--contacts", 3, "--problems", 1).out.splitlines()
+        self.assertIn(("psd", 3, 3), [(source["family"], source["setting"], len(source["problems"][0]["contacts"]))
+                                      for source in map(json.loads, generated)])
 
 
 RANDOM = ["full", "half", "planar", "planar-half", "space", "space-half"]
@@ -357,10 +302,6 @@ class Peers(cli.TestCase):
     def test_bad_options_exit_with_2(self):
         self.refuses("bench", "--suite", "peers", "--problems", 0, says=["--problems"])
         self.refuses("bench", "--suite", "search", "--contacts", 9, says=["--contacts", "found 9", "1 to 8", "search"])
-        self.refuses("bench", "--suite", "methods", "--generator", "psd", "--contacts", 9,
-                     says=["found 9", "1 to 8", "generator"])
-        for suite in ("extremes", "methods"):
-            self.refuses("bench", "--suite", suite, "--generator", "bilateral", says=["bilateral", "static", suite])
         self.refuses("bench", "--suite", "lemke", "--contacts", 6, says=["found 6", "1 to 5"])
         self.refuses("bench", "--suite", "growth", "--contacts", 0, says=["--contacts"])
 

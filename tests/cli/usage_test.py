@@ -211,8 +211,7 @@ class Usage(cli.TestCase):
             (("bench", "--", "x", "--suite"), ["found '--suite'", "expected nothing more"]),
             (("bench", "search"), ["bench: found 'search'", "expected nothing more"]),
             (("bench", "--suite", "search", "--contacts", "9"), ["--contacts: found 9", "expected 1 to 8"]),
-            (("bench", "--suite", "methods", "--generator", "bilateral"), ["found bilateral", "expected one of static"]),
-            (("bench", "--suite", "extremes", "--families", "tower"), ["tower", "expected"]),
+            (("bench", "--suite", "problems", "--families", "tower"), ["tower", "expected"]),
             (("bench", "--suite", "scenes", "--scenes", nothing), [nothing, "expected a folder"]),
             (("bench", "--repeat", "many"), ["--repeat: found 'many'", "an integer from 1 to 1000"]),
         ]

@@ -5,8 +5,6 @@ import collections
 
 from markdown import count, prose, rate, share, spread, table, three
 
-EXACT, PAPER, UNITS = ("complete", "", "exact"), ("baraff", "paper", "exact"), ("lemke", "units", "exact")
-
 
 def work_blocks(program):
     return program.study("work", "--problems", program.size(1200))
@@ -30,39 +28,6 @@ def starts(program):
     return work_blocks(program)[3]
 
 
-TIMED = (("complete", "", "double"), ("baraff", "paper", "double"), ("lemke", "units", "double"),
-         EXACT, PAPER, UNITS, ("enumerate", "", "exact"), ("ipopt", "(17), (18)", "exact"))
-
-
-def method_times(program):
-    result = program.bench("methods")
-    cells = {(row["contacts"], row["method"], row["reading"], row["arithmetic"]): row for row in result["times"]}
-    sizes = sorted({row["contacts"] for row in result["times"]})
-    rows = []
-    for key in TIMED:
-        found = [cells.get((n, *key)) for n in sizes]
-        last = found[-1]
-        rows.append((f"`{key[0]}`, {key[2]}", *(spread(row["us"]) if row else "" for row in found),
-                     spread(last["ratio"]) if last else ""))
-    head = ["microseconds a problem", *(f"{n} contacts" for n in sizes), f"times `complete`, double, at {sizes[-1]}"]
-    return table(head, rows) + "\n\n" + prose("Median (quartiles)")
-
-
-def frictionless(program):
-    result = program.bench("frictionless")
-    timed = ("gauss us", "baraff us", "baraff/gauss", "lemke/baraff", "fast/baraff", "ipopt us", "ipopt/baraff",
-             "qp/baraff")
-    rows = [(row["contacts"], row["problems"], *(spread(row[key]) for key in timed)) for row in result["frictionless"]]
-    names = ("baraff", "lemke", "fast", "ipopt", "qp")
-    solved = "; ".join(f"`{name}` {count(sum(row[name + ' solved'] for row in result['frictionless']))}"
-                       for name in names)
-    problems = count(sum(row["problems"] for row in result["frictionless"]))
-    return table(["contacts", "problems", "plain Gauss, microseconds", "`baraff`, microseconds", "`baraff` / Gauss",
-                  "Lemke / `baraff`", "`fast` / `baraff`", "Ipopt, microseconds", "Ipopt / `baraff`",
-                  "CGAL, exact / `baraff`"], rows) + "\n\n" + prose(
-        f"Solved of {problems}: {solved}. Processor time of one thread, BLAS pinned to one; median (quartiles)")
-
-
 # ---- Studies -------------------------------------------------------------------------------------------------
 
 
@@ -71,6 +36,8 @@ def study(name, *words):
     return lambda program: "\n\n".join(program.study(name, *words))
 
 
+method_times = study("methods")
+frictionless = study("frictionless")
 smallest = study("smallest", "--entries", 3)
 linear_algebra = study("linear-algebra")
 

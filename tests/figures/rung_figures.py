@@ -15,46 +15,12 @@ def large_certificates(program):
     return "\n\n".join((*program.study("large-certificates"), prose("Processor time, one thread")))
 
 
-def quartile(values):
-    return f"{values[1]:.1f}" if values else ""
-
-
-def ladder(program, *options):
-    """Summed over families: rows of method and arithmetic."""
-    lines = program.bench(*options)
-    sums = collections.defaultdict(lambda: collections.Counter())
-    medians, worst = collections.defaultdict(list), collections.defaultdict(float)
-    double = {}
-    for line in lines:
-        if line["arithmetic"] == "double" and line["microseconds"]:
-            double[line["family"], line["setting"], line["method"]] = line["microseconds"][1]
-    for line in lines:
-        key = line["method"], line["arithmetic"]
-        for name in ("problems", "solved", "undecided", "other", "refused", "wrong", "silent"):
-            sums[key][name] += line[name]
-        unit = double.get((line["family"], line["setting"], line["method"]))
-        if unit and line["microseconds"]:
-            medians[key].append(line["microseconds"][1] / unit)
-        if line["worst_residual"] is not None:
-            worst[key] = max(worst[key], line["worst_residual"])
-    rows = []
-    for (method, arithmetic), s in sums.items():
-        ratios = sorted(medians[method, arithmetic])
-        ratio = f"{ratios[len(ratios) // 2]:.2f} ({ratios[0]:.2f} - {ratios[-1]:.2f})" if ratios else ""
-        rows.append((f"`{method}`", arithmetic, ratio, count(s["solved"]), count(s["undecided"]), count(s["other"]),
-                     count(s["wrong"]), count(s["silent"]), count(s["refused"]), f"{worst[method, arithmetic]:.0e}"))
-    problems = max(s["problems"] for s in sums.values())
-    return table(["method", "arithmetic", "time, times double", "solved", "undecided", "another end", "wrong end",
-                  "silently wrong", "out of range", "worst residual"], rows) + "\n\n" + prose(
-        f"{count(problems)} problems; times: median (least - most) of the medians of families")
-
-
 def trade(program):
-    return ladder(program, "trade")
+    return "\n\n".join(program.study("trade"))
 
 
 def extremes(program):
-    return ladder(program, "extremes")
+    return "\n\n".join(program.study("extremes"))
 
 
 def silent(program):

@@ -312,13 +312,31 @@ class Many(unittest.TestCase):
                 ends = stiction.solve_all(problems, method, arithmetic, policy)
                 alone = [stiction.solve(problem, method, arithmetic, policy) for problem in problems]
                 self.assertEqual(list(ends["outcome"]), [answer.outcome for answer in alone])
-                counters = set(ends) - {"outcome", "seconds"}
+                counters = set(ends) - {"outcome", "seconds", "decided_on"}
                 self.assertEqual(counters, {name for answer in alone for name in answer.statistics})
                 for name in counters:
                     self.assertEqual(list(ends[name]), [answer.statistics.get(name, 0) for answer in alone], name)
                 self.assertTrue((ends["seconds"] > 0).all() and ends["seconds"].sum() < 60)
         self.assertIn("cycle", stiction.solve_all(problems, "baraff")["outcome"])
         self.assertEqual(len(stiction.solve_all([])["outcome"]), 0)
+
+    def test_answers_are_judged_and_suspicions_told(self):
+        problems = [*stiction.draw("bodies", 3, 40), stiction.load(LOOP)]
+        given = [problem.rounded("float") for problem in problems]
+        for method, arithmetic in (("fast", "float"), ("complete", "filtered"), ("complete", "exact")):
+            ends = stiction.solve_all(given, method, arithmetic, judge=given)
+            self.assertEqual(list(np.isnan(ends["residual"])), list(ends["outcome"] != "solved"))
+            self.assertLessEqual(np.nanmax(ends["residual"]), {"float": 1e-5, "filtered": 1e-8, "exact": 0}[arithmetic])
+            self.assertEqual("decided_on" in ends, arithmetic == "filtered")
+        others = [stiction.Problem(problem.A, problem.b + 1, problem.mu) for problem in given]
+        self.assertGreater(np.nanmin(stiction.solve_all(given, "complete", "exact", judge=others)["residual"]), 0)
+        told = stiction.solve_all(problems, "baraff", "double", confirm=False)
+        self.assertEqual(told["outcome"][-1], "cycle")
+
+    def test_a_problem_as_numbers_hold_it(self):
+        third = stiction.Problem([["1/3", 0], [0, 1]], [-1, 0], "1/3")
+        self.assertEqual(third.rounded().exact_A[0][0], Fraction(1 / 3))
+        self.assertEqual(third.rounded("float").mu, [Fraction(float(np.float32(1 / 3)))])
 
     def test_problems_of_a_generator_are_functions_of_what_is_asked_for(self):
         problems = stiction.draw("conditioned", 2, 5, 3, mu="1/3")

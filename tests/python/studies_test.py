@@ -3,7 +3,9 @@
 
     studies_test.py STICTION SOURCES"""
 
+import csv
 import itertools
+import json
 import os
 import subprocess
 import sys
@@ -16,14 +18,18 @@ import stiction
 SOURCES = Path(sys.argv[2])
 
 
-def tables(name, *words, code=0):
-    """Rows of each table, by the heads of its columns."""
+def printed(name, *words):
     done = subprocess.run([sys.executable, SOURCES / "bench/studies" / f"{name}.py", *map(str, words)], text=True,
                           capture_output=True, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
-    if done.returncode != code:
+    if done.returncode:
         raise AssertionError(f"{name}: exit {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def tables(name, *words):
+    """Rows of each table, by the heads of its columns."""
     found = []
-    for block in done.stdout.split("\n\n"):
+    for block in printed(name, *words).split("\n\n"):
         lines = [line[2:-2].split(" | ") for line in block.splitlines() if line.startswith("|")]
         if lines:
             found.append([dict(zip(lines[0], cells, strict=True)) for cells in lines[2:]])
@@ -142,6 +148,56 @@ class Studies(unittest.TestCase):
         self.assertGreater(float(rows[0]["best of random"]), 4)
         for name in ("evolution", "nlopt", "continuation"):
             self.assertGreater(float(rows[0][f"gain of {name}"]), 0.3)
+
+    def test_trade(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "trade.csv")
+            rows, = tables("trade", "--contacts", 2, "--problems", 6, "--csv", file)
+            lines = list(csv.DictReader(file.open()))
+        self.assertEqual({row["silently wrong"] for row in rows}, {"0"})
+        by = {(row["method"], row["arithmetic"]): row for row in rows}
+        self.assertLessEqual({"float", "double", "double scaled", "double regularized", "quad", "filtered", "exact"},
+                             {arithmetic for _, arithmetic in by})
+        for method in ("`complete`", "`lemke`"):
+            self.assertEqual(whole(by[method, "exact"]["solved"]), sum(
+                int(line["problems"]) for line in lines if (line["method"], line["arithmetic"]) == ("complete", "exact")))
+        for line in lines:
+            ends = sum(int(line[end]) for end in ("solved", "undecided", "other", "refused"))
+            self.assertEqual(ends, int(line["problems"]), line)
+            self.assertLessEqual(float(line["wrong_share_low"]), float(line["wrong_share_high"]))
+            decided = sum(int(line[f"decided_on_{rung}"]) for rung in ("double", "double-double", "exact"))
+            self.assertEqual(decided > 0, line["arithmetic"] == "filtered", line)
+            if line["arithmetic"] == "exact" and line["worst_residual"]:
+                self.assertEqual(float(line["worst_residual"]), 0)
+            if line["arithmetic"] == "double regularized":
+                self.assertGreater(float(line["residual_high"] or 1), 0)
+
+    def test_extremes(self):
+        lines = json.loads(printed("extremes", "--families", "levers", "range", "--problems", 2, "--json"))
+        self.assertEqual({line["family"] for line in lines}, {"levers", "range"})
+        at = {(line["setting"], line["method"], line["arithmetic"]): line for line in lines if line["family"] == "levers"}
+        self.assertEqual(at[150, "complete", "float"]["refused"], 2)  # 10^150 m
+        self.assertEqual(at[150, "complete", "exact"]["solved"], 2)
+        self.assertIsNone(at[150, "complete", "float"]["microseconds"])
+        self.assertEqual(sum(line["silent"] for line in lines), 0)
+
+    def test_methods(self):
+        rows, = tables("methods", "--contacts", 2, 3, "--problems", 40)
+        must = [row for row in rows if row["method"] in ("complete", "lemke", "enumerate")]
+        self.assertEqual(len(must), 10)
+        for row in must:
+            self.assertEqual((row["solved"], row["wrong"]), (row["problems"], "0"), row)
+        self.assertEqual(rows[0]["times `complete`, double"], "1 (1 - 1)")
+        generated = json.loads(printed("methods", "--contacts", 2, "--problems", 8, "--generator", "duplicates", "--json"))
+        self.assertEqual((generated["generator"], generated["mismatches"], len(generated["times"])), ("duplicates", 0, 10))
+
+    def test_frictionless(self):
+        rows = json.loads(printed("frictionless", "--contacts", 4, 40, "--problems", 2, "--json"))["frictionless"]
+        self.assertEqual([(row["contacts"], row["problems"]) for row in rows], [(4, 2), (40, 2)])
+        for row in rows:
+            for method in ("baraff", "lemke", "fast", "qp-ipopt", "qp"):
+                self.assertEqual(row[f"{method} solved"], 2, row)
+            self.assertGreater(row["qp us"][1], row["lu us"])
 
     def test_ratios(self):
         runs, searches = tables("ratios", "--contacts", 2, "--problems", 3, "--searched", 200, "--repeat", 1)

@@ -842,8 +842,8 @@ TEST_CASE("report: a page without measurements names the commands that make them
   WriteReport(SampleStore(scratch / "s"), scratch / "out");
   const std::string page = PagesOf(scratch / "out");
   CHECK(Has(page, "<a href=\"results.html#rungs\">Speed against accuracy</a>"));
-  CHECK(Has(page, "stiction bench --suite trade --csv trade.csv\n"));
-  CHECK(Has(page, "stiction report STORE --bench trade.csv extremes.csv -o DIR"));
+  CHECK(Has(page, "./run bench --suite trade --csv trade.csv\n"));
+  CHECK(Has(page, "./run report STORE --bench trade.csv extremes.csv -o DIR"));
   CHECK(!Has(page, "data-figure=\"rungs\""));
 }
 

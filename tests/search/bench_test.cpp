@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The problems of `stiction bench --suite methods`, its dials and buildings, and its statistics by hand.
+// Dials, buildings and clocks of `stiction bench`, and its statistics by hand.
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -7,11 +7,10 @@
 
 #include "bench/counted.h"
 #include "bench/dials.h"
-#include "bench/family.h"
 #include "bench/measure.h"
 #include "bench/one_thread.h"
 #include "bench/peak.h"
-#include "bench/plain_gauss.h"
+#include "bench/peers/plain_gauss.h"
 #include "bench/structure.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
@@ -26,84 +25,6 @@
 namespace stiction {
 namespace {
 
-bool IsDefinite(const ExactMatrix& A) {
-  const auto decided = DecideSemidefinite(A);
-  const auto* factors = std::get_if<LdltFactors>(&decided);
-  return factors != nullptr && !FindAsymmetry(A) && factors->D.minCoeff() > 0;
-}
-
-bool IsExactlyRounded(const BenchProblem& problem) {
-  bool equal = true;
-  for (int i = 0; i < problem.exact.rows(); ++i) {
-    equal &= Rational(problem.rounded.b[i]) == problem.exact.b[i];
-    for (int j = 0; j < problem.exact.rows(); ++j)
-      equal &= Rational(problem.rounded.A(i, j)) == problem.exact.A(i, j);
-  }
-  return equal;
-}
-
-TEST_CASE("bench: the family is positive definite, and four normals of five are approached") {
-  int approached = 0, normals = 0, positive_frictions = 0;
-  for (int index = 0; index < 200; ++index) {
-    CAPTURE(index);
-    const BenchProblem problem = MakeBenchProblem({}, 1 + index % 4, 7, index);
-    REQUIRE(problem.exact.rows() == 2 * (1 + index % 4));
-    CHECK(IsDefinite(problem.exact.A));
-    CHECK(IsExactlyRounded(problem));
-    for (int row = 0; row < problem.exact.rows(); row += 2) {
-      ++normals;
-      approached += problem.exact.b[row] <= 0;
-      positive_frictions += problem.exact.b[row + 1] > 0;
-    }
-  }
-  CHECK(normals == 500);
-  CHECK(std::abs(approached - 400) < 45);  // 5 standard deviations
-  CHECK(std::abs(positive_frictions - 250) < 56);
-}
-
-TEST_CASE("bench: every class of friction has its coefficients, for the family and for a generator") {
-  const std::vector<Rational> classes = {0, Rational(1, 5), Rational(1, 2), 1, 2, 5, 10};
-  for (const auto generator : {std::optional<GeneratorId>(), std::optional(GeneratorId::kBodies)}) {
-    std::set<Rational> mixed;
-    for (int index = 0; index < 80; ++index) {
-      for (const auto& contact : MakeBenchProblem(generator, 3, 1, index).exact.contacts) {
-        CHECK(contact.kind == ContactKind::kStatic);
-        if (index % 8 < 7) CHECK(contact.mu == classes[index % 8]);
-        if (index % 8 == 7) mixed.insert(contact.mu);
-      }
-    }
-    CHECK(mixed.size() > 4);
-  }
-}
-
-TEST_CASE("bench: a problem is a function of its arguments, and of each of them") {
-  const auto text = [](const BenchProblem& problem) { return ProblemToJson(problem.exact).dump(); };
-  const std::string problem = text(MakeBenchProblem({}, 2, 1, 8));
-  CHECK(text(MakeBenchProblem({}, 2, 1, 8)) == problem);
-  CHECK(text(MakeBenchProblem({}, 2, 1, 16)) != problem);
-  CHECK(text(MakeBenchProblem({}, 2, 2, 8)) != problem);
-  CHECK(text(MakeBenchProblem(GeneratorId::kPsd, 2, 1, 8)) != problem);
-  const BenchProblem smooth = MakeFrictionless(5, 1, 0);
-  CHECK(smooth.exact.rows() == 5);
-  CHECK(smooth.exact.contacts[0].kind == ContactKind::kFrictionless);
-  CHECK(IsDefinite(smooth.exact.A));
-  CHECK(text(MakeFrictionless(5, 1, 1)) != text(smooth));
-}
-
-// Up to mu = 1/2 part 4 of solver/complete/complete_driving.md does not exclude folds; none was ever seen in
-// the family. At mu = 0 the reduced determinants are principal minors, so there is none.
-TEST_CASE("bench: no folds without friction, some with much of it") {
-  int folds_without = 0, folds_with_much = 0;
-  for (int index = 0; index < 800; ++index) {
-    if (index % 8 != 0 && index % 8 != 6) continue;
-    const ExactAnswer run = RunComplete(MakeBenchProblem({}, 4, 1, index).exact, {});
-    REQUIRE(run.Solved());
-    (index % 8 == 0 ? folds_without : folds_with_much) += run.counters[Counter::kFolds] > 0;
-  }
-  CHECK(folds_without == 0);
-  CHECK(folds_with_much > 5);
-}
-
 TEST_CASE("bench: quartiles by hand") {
   const Quartiles q = QuartilesOf({7, 1, 3, 5, 9, 2, 8, 4});  // sorted 1 2 3 4 5 7 8 9
   CHECK(q.low == 3);
@@ -115,26 +36,6 @@ TEST_CASE("bench: quartiles by hand") {
   CHECK(SpreadOf({}).most == 0);
   const Quartiles one = QuartilesOf({4});
   CHECK((one.low == 4 && one.median == 4 && one.high == 4 && one.ninety == 4));
-}
-
-TEST_CASE("bench: methods mismatch if one refutes what another has solved, or if an exact answer is wrong") {
-  const Measure solved{.outcome = Outcome::kSolved}, wrong{.outcome = Outcome::kSolved, .wrong = true};
-  const Measure ray{.outcome = Outcome::kRay, .refutes = true}, cycle{.outcome = Outcome::kCycle};
-  const auto mismatch = [](const Measure& left, bool left_exact, const Measure& right) {
-    return FindMismatch(std::vector<NamedMeasure>{{"left", left_exact, left}, {"right", true, right}})
-        .has_value();
-  };
-  CHECK(mismatch(solved, true, ray));
-  CHECK(mismatch(ray, true, solved));
-  CHECK(mismatch(wrong, true, cycle));
-  CHECK_FALSE(mismatch(wrong, false, solved));  // doubles may be wrong, and are counted
-  CHECK_FALSE(mismatch(solved, false, ray));    // and do not prove that there is a solution
-  CHECK_FALSE(mismatch(solved, true, cycle));
-  CHECK_FALSE(mismatch(ray, true, ray));
-  CHECK_FALSE(mismatch(ray, true, cycle));
-  CHECK_FALSE(mismatch(solved, true, solved));
-  CHECK(FindMismatch(std::vector<NamedMeasure>{{"a", true, ray}, {"b", true, solved}}) ==
-        "a finds no solution, b does");
 }
 
 // Whether b = A x for some x, to rounding.
@@ -260,7 +161,10 @@ TEST_CASE("bench: the peak of a processor is positive, and no less in wider vect
 }
 
 TEST_CASE("bench: plain elimination solves the system, and the clocks of one thread agree") {
-  const ContactProblem<double> problem = MakeBenchProblem({}, 12, 1, 0).rounded;
+  Choices choices(1);
+  ContactProblem<double> problem;
+  Generate<double, Eigen::Dynamic>(GeneratorId::kPsd, 8, kDefaultPalette, choices, problem);
+  problem.A.diagonal().array() += 1;
   PlainGauss gauss;
   const Clocks start = ReadClocks();
   gauss.Solve(problem.A, problem.b);
