@@ -12,14 +12,13 @@
 #include <array>
 #include <iostream>
 
-#include "bench/measure.h"
-#include "bench/one_thread.h"
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
+#include "corpus/order_statistics.h"
 #include "corpus/stopwatch.h"
 #include "search/generators/choices.h"
 #include "solver/numeric/fast.h"
@@ -116,13 +115,8 @@ int BenchGateCost(const BenchOptions& options) {
   BenchTable table{"gate-cost", "microseconds a problem of the plane: LU of A with one solve, and the gate"};
   for (const int contacts : sizes) table.rows.push_back(Row(contacts, options));
   if (options.json) {
-    std::cout << JsonText({{"suite", options.suite},
-                           {"seed", options.seed},
-                           {"one_thread", ThreadsJson()},
-                           {table.name, table.rows}})
-              << "\n";
+    std::cout << JsonText({{"suite", options.suite}, {"seed", options.seed}, {table.name, table.rows}}) << "\n";
   } else {
-    fmt::print("{}\n", ThreadsText());
     Print(table);
   }
   return kExitDone;

@@ -19,8 +19,6 @@ struct State {
   std::string name;
   std::int64_t steps = 1, done = 0;
   std::optional<ProgressBar> bar;
-  Stopwatch watch{CLOCK_MONOTONIC};
-  double shown = 0;  // s
 };
 
 State& TheState() {
@@ -46,23 +44,21 @@ void Begin(const std::string& part, std::int64_t steps) {
 }
 
 void Done(std::int64_t steps) {
-  constexpr double kBetween = 0.5;  // s
   State& now = TheState();
   const std::lock_guard lock(now.mutex);
   now.done = std::min(now.done + steps, now.steps);
-  const double seconds = now.watch.Seconds();
-  if (!now.bar || now.part == 0 || seconds - now.shown < kBetween) return;
-  now.shown = seconds;
-  const double of_part = static_cast<double>(now.done) / static_cast<double>(now.steps);
-  now.bar->Show((static_cast<double>(now.part - 1) + of_part) / static_cast<double>(now.parts),
-                fmt::format("{} of {}, {}: {} of {}", now.part, now.parts, now.name, Grouped(now.done),
-                            Grouped(now.steps)));
+  if (!now.bar || now.part == 0) return;
+  const auto parts = static_cast<std::int64_t>(now.parts), before = static_cast<std::int64_t>(now.part) - 1;
+  now.bar->ShowSome(before * now.steps + now.done, parts * now.steps, [&now] {
+    return fmt::format("{} of {}, {}: {} of {}", now.part, now.parts, now.name, Grouped(now.done),
+                       Grouped(now.steps));
+  });
 }
 
 void Clear() {
   State& now = TheState();
   const std::lock_guard lock(now.mutex);
-  if (now.bar && now.shown > 0) now.bar->Clear();
+  if (now.bar) now.bar->Clear();
 }
 
 }  // namespace stiction::progress

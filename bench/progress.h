@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the program is, on standard error: the parts of a suite, rows of its tables as a rule, and the steps
-// of the one at hand. What takes less than half a second shows nothing. Not for what is being timed: a step
-// calls a clock.
+// of the one at hand. Not for what is being timed: a step calls a clock.
 
 #ifndef STICTION_BENCH_PROGRESS_H_
 #define STICTION_BENCH_PROGRESS_H_

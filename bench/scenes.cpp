@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "bench/measure.h"
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
+#include "corpus/order_statistics.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/stopwatch.h"
 #include "scene/simulate.h"
@@ -59,7 +59,7 @@ void RunOnce(const SceneFileIn<Kind>& file, Way& way) {
 }
 
 Json ToJson(std::vector<double> values) {
-  const Spread s = SpreadOf(std::move(values));
+  const Quartiles s = QuartilesOf(std::move(values));
   return {{"least", s.least}, {"median", s.median}, {"most", s.most}};
 }
 

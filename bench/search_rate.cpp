@@ -22,13 +22,13 @@
 #include <thread>
 
 #include "bench/counted.h"
-#include "bench/measure.h"
 #include "bench/peak.h"
 #include "bench/progress.h"
 #include "bench/suite.h"
 #include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
+#include "corpus/order_statistics.h"
 #include "corpus/record/work.h"
 #include "corpus/stopwatch.h"
 #include "search/generators/integer_problem.h"
@@ -44,11 +44,11 @@ constexpr std::int64_t kProblems = 200'000;  // of a run at two contacts
 
 double OwnSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
-Json ToJson(const Spread& s) { return {s.least, s.median, s.most}; }
+Json ToJson(const Quartiles& s) { return {s.least, s.median, s.most}; }
 
 // ---- Rates -----------------------------------------------------------------------------------
 
-Spread SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, const BenchOptions& o) {
+Quartiles SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, const BenchOptions& o) {
   progress::Begin(fmt::format("{}, {} contacts, {}", Row(generator).name, contacts, Name(lanes)), o.repeat + 1);
   Campaign campaign;
   campaign.seed = o.seed;
@@ -66,7 +66,7 @@ Spread SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, con
     if (run > 0) rates.push_back(static_cast<double>(problems) / seconds);  // the first run warms up
     progress::Done();
   }
-  return SpreadOf(rates);
+  return QuartilesOf(rates);
 }
 
 BenchTable MeasureRates(const BenchOptions& o) {
@@ -219,7 +219,7 @@ BenchTable MeasureStore(const BenchOptions& o) {
                    Json::array()};
   table.rows.push_back({{"a unit", 1e3 * a_unit},
                         {"with the store, mean", 1e3 * mean},
-                        {"median", 1e3 * SpreadOf(kept).median},
+                        {"median", 1e3 * QuartilesOf(kept).median},
                         {"most, a block closed", 1e3 * most},
                         {"cores that it keeps busy", a_unit / mean}});
   return table;

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "corpus/json.h"
+#include "corpus/plain_text.h"
 
 namespace stiction {
 namespace {
@@ -34,22 +35,19 @@ std::string CellText(const Json& cell) {
 void Print(const BenchTable& table) {
   fmt::print("\n{}\n", table.title);
   if (table.rows.empty()) return;
-  std::vector<std::vector<std::string>> lines(1);
-  for (const auto& [key, value] : table.rows.front().items()) lines[0].push_back(key);
+  std::vector<std::string> head;
+  std::size_t names = 0;
+  for (const auto& [key, value] : table.rows.front().items()) {
+    names += value.is_string() && names == head.size();
+    head.push_back(key);
+  }
+  TextTable text(head, names);
   for (const Json& row : table.rows) {
-    auto& line = lines.emplace_back();
-    for (const Json& cell : row) line.push_back(CellText(cell));
+    std::vector<std::string> cells;
+    for (const Json& cell : row) cells.push_back(CellText(cell));
+    text.AddRow(std::move(cells));
   }
-  for (const auto& line : lines) {
-    for (std::size_t column = 0; column < line.size(); ++column) {
-      std::size_t width = 0;
-      for (const auto& other : lines) width = std::max(width, other[column].size());
-      const bool words = table.rows.front().at(lines[0][column]).is_string();
-      fmt::print("{}", words ? fmt::format("  {:<{}}", line[column], width)
-                             : fmt::format("  {:>{}}", line[column], width));
-    }
-    fmt::print("\n");
-  }
+  fmt::print("{}", text.Done());
 }
 
 }  // namespace stiction

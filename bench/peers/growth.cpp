@@ -10,12 +10,12 @@
 #include <limits>
 #include <optional>
 
-#include "bench/measure.h"
-#include "bench/one_thread.h"
+#include "bench/peers/clocks.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
 #include "bench/structure.h"
 #include "corpus/json.h"
+#include "corpus/order_statistics.h"
 #include "search/generators/choices.h"
 #include "solver/complete/complete.h"
 #include "solver/numeric/body_newton.h"

@@ -12,12 +12,12 @@
 #include <algorithm>
 #include <memory>
 
-#include "bench/measure.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
 #include "bench/table.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
+#include "corpus/order_statistics.h"
 #include "corpus/stopwatch.h"
 #include "search/lanes/batch.h"
 #include "search/units/unit.h"
@@ -142,7 +142,7 @@ int CountWrong(const std::vector<PeerProblem>& problems, Contender& contender) {
 }
 
 Json SpreadJson(const std::vector<double>& values) {
-  const Spread s = SpreadOf(values);
+  const Quartiles s = QuartilesOf(values);
   return {s.least, s.median, s.most};
 }
 

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "bench/one_thread.h"
+#include "bench/peers/clocks.h"
 #include "bench/peers/engines.h"
 #include "bench/peers/families.h"
 #include "bench/peers/native_lu.h"

@@ -139,7 +139,7 @@ Quartiles RatiosOf(const Run& run, const Run& unit) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(run.groups.size(), unit.groups.size()); ++i)
     ratios.push_back(run.groups[i] / unit.groups[i]);
-  return ratios.empty() ? Quartiles{} : QuartilesOf(ratios);
+  return QuartilesOf(ratios);
 }
 
 Json QuartilesJson(const Quartiles& q) { return {q.low, q.median, q.high}; }

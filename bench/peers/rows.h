@@ -20,9 +20,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/measure.h"
-#include "bench/one_thread.h"
+#include "bench/peers/clocks.h"
 #include "bench/peers/tables.h"
+#include "corpus/order_statistics.h"
 
 namespace stiction {
 

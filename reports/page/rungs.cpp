@@ -8,6 +8,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
+#include "corpus/order_statistics.h"
 #include "reports/page/page.h"
 
 namespace stiction {
@@ -30,11 +31,6 @@ struct RungSum {
     silent += line.silent;
     if (line.microseconds) microseconds.push_back(*line.microseconds);
     worst = std::max(worst, line.worst_residual.value_or(0));
-  }
-  double Median() const {
-    std::vector<double> sorted = microseconds;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2];
   }
   // What is no right answer.
   double LostShare() const { return static_cast<double>(wrong + undecided) / static_cast<double>(asked); }
@@ -76,7 +72,8 @@ Html FamilyTable(const std::string& family, const std::vector<RungSum>& sums) {
       {},
       2};
   for (const RungSum& sum : sums) {
-    table.Add({sum.method, sum.arithmetic, sum.microseconds.empty() ? TableCell() : sum.Median(), sum.asked,
+    table.Add({sum.method, sum.arithmetic,
+               sum.microseconds.empty() ? TableCell() : QuartilesOf(sum.microseconds).median, sum.asked,
                sum.solved, sum.undecided, sum.other, ShareOf(sum.wrong, sum.asked), sum.silent,
                fmt::format("{:.0e}", sum.worst)});
   }
@@ -139,8 +136,8 @@ Table RungsFigure(const std::vector<RungLine>& lines) {
   for (const auto& [family, sums] : Families(lines)) {
     for (const RungSum& sum : sums) {
       if (sum.microseconds.empty() || sum.asked == 0) continue;
-      table.Add({family, sum.method, sum.arithmetic, sum.Median(), sum.LostShare(), sum.asked, sum.solved,
-                 sum.wrong, sum.undecided});
+      table.Add({family, sum.method, sum.arithmetic, QuartilesOf(sum.microseconds).median, sum.LostShare(),
+                 sum.asked, sum.solved, sum.wrong, sum.undecided});
     }
   }
   return table;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "corpus/order_statistics.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/simulate.h"
 
@@ -87,9 +88,7 @@ void SetPoses(SceneIn<Kind, double>& scene, const FrameIn<Kind>& frame) {
 double ForceScale(const View& view, std::vector<double> largest) {
   largest.erase(std::remove(largest.begin(), largest.end(), 0.0), largest.end());
   if (largest.empty()) return 1;
-  const auto median = largest.begin() + static_cast<std::ptrdiff_t>(largest.size() / 2);
-  std::nth_element(largest.begin(), median, largest.end());
-  return 0.15 * (view.top - view.bottom) / *median;
+  return 0.15 * (view.top - view.bottom) / QuartilesOf(std::move(largest)).median;
 }
 
 // ---- Pictures --------------------------------------------------------------------------------
