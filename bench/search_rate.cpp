@@ -74,7 +74,7 @@ BenchTable MeasureRates(const BenchOptions& o) {
   BenchTable table{"rates", "Problems a second of processor time, one thread: median (least - most)",
                    Json::array()};
   for (const GeneratorRow& row : Generators()) {
-    if (o.generator && row.id != *o.generator) continue;
+    if (!o.generator.empty() && row.name != o.generator) continue;
     for (const int contacts : sizes)
       table.rows.push_back(
           {{"generator", row.name},
@@ -88,7 +88,7 @@ BenchTable MeasureLanes(const BenchOptions& o) {
   BenchTable table{"lanes", "The same by instruction set; none: one problem after the other", Json::array()};
   for (const GeneratorRow& row : Generators()) {
     if (!row.IsPlain() || static_cast<int>(row.id) >= kOrdinaryGeneratorCount) continue;
-    if (o.generator && row.id != *o.generator) continue;
+    if (!o.generator.empty() && row.name != o.generator) continue;
     for (const int contacts : {2, 3, 4}) {
       Json line = {{"generator", row.name}, {"contacts", contacts}};
       for (const InstructionSet set : InstructionSets())
@@ -281,9 +281,10 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
 }  // namespace
 
 int BenchSearch(const BenchOptions& o) {
-  progress::Expect((o.generator ? 1 : Generators().size()) * (o.contacts.empty() ? 3 : o.contacts.size()) +
-                   (o.generator ? 1 : kOrdinaryGeneratorCount) * 3 * InstructionSets().size() +
-                   (o.generator ? 0 : 5));
+  progress::Expect((o.generator.empty() ? Generators().size() : 1) *
+                       (o.contacts.empty() ? 3 : o.contacts.size()) +
+                   (o.generator.empty() ? kOrdinaryGeneratorCount : 1) * 3 * InstructionSets().size() +
+                   (o.generator.empty() ? 5 : 0));
   std::vector<BenchTable> tables = {MeasureRates(o)};
   progress::Clear();
   if (!o.json) Print(tables.back());
@@ -294,7 +295,7 @@ int BenchSearch(const BenchOptions& o) {
     tables.push_back(std::move(table));
   };
   take(MeasureLanes(o));
-  if (!o.generator) {
+  if (o.generator.empty()) {
     for (BenchTable& table : MeasureMix(o)) take(std::move(table));
     take(MeasureStore(o));
     take(MeasureRoofline(o));

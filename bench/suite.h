@@ -65,8 +65,8 @@ struct BenchOptions {
   std::vector<int> contacts;             // empty: the suite's own
   std::optional<std::int64_t> problems;  // empty: the suite's own
   int repeat = 5;
-  std::uint64_t seed = 1;
-  std::optional<GeneratorId> generator;  // empty: the suite's own
+  std::int64_t seed = 1;
+  std::string generator;                 // empty: all
   std::string scenes = "corpus/scenes";  // folder
   std::vector<std::string> families;     // of problems with structure; empty: all
   int threads = 1;                       // of a simulation, of `silent`

@@ -17,7 +17,7 @@ namespace {
 
 struct BenchCommand {
   std::vector<std::string> words;
-  BenchWords meant;  // by them; the program reads them itself
+  BenchOptions meant;  // by them; the program reads them itself
 };
 
 int BecomeBench(const BenchCommand& o) {

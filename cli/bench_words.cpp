@@ -38,15 +38,7 @@ std::string WhatProblemsCount() {
 
 }  // namespace
 
-BenchOptions BenchWords::Options() const {
-  BenchOptions result = options;
-  result.seed = static_cast<std::uint64_t>(seed);
-  result.generator = FindGenerator(generator);
-  return result;
-}
-
-void AddBenchWords(Verb& verb, BenchWords& words) {
-  BenchOptions& o = words.options;
+void AddBenchWords(Verb& verb, BenchOptions& o) {
   verb.Option("--suite", o.suite, "what is measured").Choices(SuiteChoices());
   verb.Option("-c,--contacts", o.contacts, "numbers of contacts; by default the suite's own")
       .Range(1, kMostOfAnySuite)
@@ -57,9 +49,9 @@ void AddBenchWords(Verb& verb, BenchWords& words) {
   verb.Option("--repeat", o.repeat, "search, scenes: counted runs")
       .Range(1, 1000)
       .Details("peers, random, structure: 0.06 seconds each for a row and size");
-  verb.Option("--seed", words.seed, "of the problems")
+  verb.Option("--seed", o.seed, "of the problems")
       .Range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max()));
-  verb.Option("-g,--generator", words.generator, "search: this one alone").OneOf(GeneratorNames());
+  verb.Option("-g,--generator", o.generator, "search: this one alone").OneOf(GeneratorNames());
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
   verb.Option("--families", o.families, "structure, engines, problems, silent, gate: these alone");
   verb.Option("-t,--threads", o.threads,

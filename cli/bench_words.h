@@ -5,9 +5,6 @@
 #ifndef STICTION_CLI_BENCH_WORDS_H_
 #define STICTION_CLI_BENCH_WORDS_H_
 
-#include <cstdint>
-#include <string>
-
 #include "bench/suite.h"
 #include "cli/verb.h"
 
@@ -15,16 +12,7 @@ namespace stiction {
 
 inline constexpr const char* kBenchPurpose = "Benchmark tables: timings, by hand and never as a test";
 
-struct BenchWords {
-  BenchOptions options;
-  std::string generator;  // empty: the suite's own
-  std::int64_t seed = 1;
-
-  // As the suites take them.
-  BenchOptions Options() const;
-};
-
-void AddBenchWords(Verb& verb, BenchWords& words);
+void AddBenchWords(Verb& verb, BenchOptions& o);
 
 }  // namespace stiction
 

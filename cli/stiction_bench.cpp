@@ -25,8 +25,7 @@ const std::map<std::string_view, int (*)(const BenchOptions&)> kFunctions = {
     {"search", BenchSearch}, {"problems", BenchProblems},  {"silent", BenchSilent},
     {"gate", BenchGate},     {"gate-cost", BenchGateCost}, {"scenes", BenchScenes}};
 
-int RunBench(const BenchWords& words) {
-  const BenchOptions o = words.Options();
+int RunBench(const BenchOptions& o) {
   const auto suite = std::find_if(kSuites.begin(), kSuites.end(), [&o](auto& s) { return s.name == o.suite; });
   for (const int contacts : o.contacts) {
     if (contacts > suite->most_contacts)
@@ -40,8 +39,8 @@ int RunBench(const BenchWords& words) {
 int Main(int argc, char** argv) {
   RequireOneThread(argv);
   CommandLine program(kBenchPurpose, "stiction-bench " + BuildId(), kExitCodes);
-  auto [verb, words] = program.Add("bench", kBenchPurpose, RunBench);
-  AddBenchWords(verb, words);
+  auto [verb, o] = program.Add("bench", kBenchPurpose, RunBench);
+  AddBenchWords(verb, o);
   std::vector<char*> arguments(argv, argv + argc);
   char name[] = "bench";
   if (argc != 2 || std::string_view(argv[1]) != "--version") arguments.insert(arguments.begin() + 1, name);
