@@ -81,7 +81,8 @@ def line_of(source, row, given, published):
     method, arithmetic, remedy = row
     run = study.solved([altered(problem, remedy) for problem in given], method, arithmetic, judge=given)
     outcome, residual, seconds = run["outcome"], run["residual"], run["seconds"]
-    bound = 0 if arithmetic == "exact" else 1e-5 if arithmetic == "float" else 1e-8
+    is_exact = (arithmetic == "exact") | (run.get("decided_on", "") == "exact")
+    bound = np.where(is_exact, 0, 1e-5 if arithmetic == "float" else 1e-8)
     solved = outcome == "solved"
     if remedy:
         solved &= residual <= bound
