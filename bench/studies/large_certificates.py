@@ -15,12 +15,10 @@ import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-import stiction
 import study
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = os.path.join(os.path.dirname(stiction.__file__), "../../../stiction")
-CHECKERS = ([PROGRAM, "check"], [sys.executable, ROOT / "certify/check_certificate.py"])
+CHECKERS = ([study.PROGRAM, "check"], [sys.executable, ROOT / "certify/check_certificate.py"])
 PUBLISHED = ("FrictionContactProblem00031", "FrictionContactProblem00237", "fc2d_granularflowonwall_00667_00000")
 sys.set_int_max_str_digits(0)
 
@@ -79,7 +77,7 @@ def altered(certificate):
 def rows(o, folder):
     proof, other = folder / "proof.json", folder / "altered.json"
     for name, problem in problems(o, folder):
-        code, made = run([PROGRAM, "certify"], problem, "-o", proof)
+        code, made = run([study.PROGRAM, "certify"], problem, "-o", proof)
         if code != 0:
             raise ValueError(f"{name}: certify ends with exit {code}, expected 0")
         certificate, size = json.loads(proof.read_text()), proof.stat().st_size
