@@ -31,8 +31,8 @@ COUNTS = ("solved", "undecided", "other", "wrong", "silent", "refused")
 
 
 def sources(o, *words):
-    """Families at their settings, and problems of each (`stiction bench --suite problems`)."""
-    command = [study.PROGRAM, "bench", "--suite", "problems", "--problems", o.problems, "--seed", o.seed, *words]
+    """Families at their settings, and problems of each (`stiction-bench --suite problems`)."""
+    command = [study.PROGRAM + "-bench", "--suite", "problems", "--problems", o.problems, "--seed", o.seed, *words]
     with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE) as program:
         for text in program.stdout:
             source = json.loads(text)
