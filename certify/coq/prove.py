@@ -3,12 +3,13 @@
 """Compiles the proofs, says in words what they prove, and refuses what is not proved.
 
     prove.py [--build DIR] [--jobs N] [--family] [--compare] [--program PROGRAM [--every]]
-    prove.py --scan | --accept
+    prove.py --scan | --accept | --unchanged
 
 Refused are: a word that leaves something unproved (Admitted, Axiom, a Variable outside of a section, a switched-off
 check); a theorem that does not state what its Statement.v states; an assumption that is not listed below; a file
 that a reader must trust and that has changed since it was read (digests.json). --scan looks at the sources alone,
-without Coq. --accept writes the digests, after somebody has read the files anew.
+without Coq. --accept writes the digests, after somebody has read the files anew. --unchanged asks, without Coq,
+whether the proofs were checked as they stand: a run that passed with --program leaves its digest of them in PROVED.
 
 Compiled is what has changed, in a copy of the sources. --family adds the family at mu = 1 under every policy (minutes
 of processor time); --compare runs the Coq function, as a program, beside certify/check_runs.py and PROGRAM; --program
@@ -221,6 +222,20 @@ def scan(sources):
 def imports(text):
     lines = re.finditer(r"From Stiction\.(\w+) Require (?:Import |Export )?([\w\s]+?)\s*\.", text)
     return [f"{m[1]}/{name}" for m in lines for name in m[2].split()]
+
+
+def digest_of(sources):
+    """Of all that decides whether the proofs pass: what is here, and what writes the text of a claim. Not of what the
+    program says of the corpus, which the night looks at."""
+    files = [path for path in sources.rglob("*") if path.suffix in (".v", ".py", ".ml", ".json")]
+    files += (sources.parent / "claims").glob("coq_text.*")
+    lines = (f"{path.relative_to(sources.parent)} {hashlib.sha256(path.read_bytes()).hexdigest()}\n" for path in sorted(files))
+    return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
+def is_proved(sources):
+    proved = sources / "PROVED"
+    return proved.exists() and proved.read_text().strip() == digest_of(sources)
 
 
 class Failed(Exception):
@@ -455,6 +470,7 @@ def main():
     parser.add_argument("--every", action="store_true", help="of --program: loops under every policy")
     parser.add_argument("--scan", action="store_true", help="only look at the sources")
     parser.add_argument("--accept", action="store_true", help="write the digests of what a reader must trust")
+    parser.add_argument("--unchanged", action="store_true", help="whether these proofs were checked: exit 0 if so")
     parser.add_argument("--only", help=argparse.SUPPRESS)  # of the theorems, those of this folder: for tests
     o = parser.parse_args()
     o.sources, o.build = o.sources.resolve(), o.build.resolve()
@@ -463,6 +479,11 @@ def main():
         digests = {name: hashlib.sha256((o.sources / name).read_bytes()).hexdigest() for name in TRUSTED}
         (o.sources / "digests.json").write_text(json.dumps(digests, indent=2) + "\n")
         return 0
+    if o.unchanged:
+        proved = is_proved(o.sources)
+        print("prove: the proofs were checked as they stand: certify/coq/PROVED has their digest" if proved else
+              "prove: the proofs are not those of certify/coq/PROVED")
+        return 0 if proved else 1
     try:
         found = scan(o.sources)
         if found:
@@ -491,6 +512,8 @@ def main():
     except Failed as error:
         print(f"prove: failed: {error}", file=sys.stderr)
         return 1
+    if o.program and not o.only:
+        (o.sources / "PROVED").write_text(digest_of(o.sources) + "\n")
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"prove: all {len(theorems)} theorems are proved; {used.ru_utime + used.ru_stime:.0f} s of processor time")
     return 0

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """certify/coq/prove.py refuses, before it asks Coq, sources that leave something unproved, and changed statements.
 
+So it does with proofs that have changed since they were checked, where it is asked for these alone.
+
 prove_test.py PATH_TO_STICTION SOURCES
 
 Needs no Coq: what Coq refuses is tried by `./run prove` itself, on false proofs of its own.
 """
 
+import importlib.util
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -15,6 +19,7 @@ import tempfile
 import unittest
 from fractions import Fraction
 from pathlib import Path
+from unittest import mock
 
 SOURCES = Path(sys.argv.pop(2) if len(sys.argv) > 2 else Path(__file__).resolve().parents[2])
 if len(sys.argv) > 1:
@@ -109,6 +114,80 @@ class Scan(unittest.TestCase):
     def test_without_digests_nothing_is_trusted(self):
         (self.copy / "digests.json").unlink()
         self.refused("existence/Law.v: has changed", "loops/Statement.v: has changed")
+
+
+class IfChanged(unittest.TestCase):
+    """A copy of `run` and of what it needs, where coqc only notes that it was called."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        self.coq, self.calls = self.root / "certify/coq", self.root / "calls"
+        shutil.copytree(COQ, self.coq, ignore=shutil.ignore_patterns("__pycache__", "PROVED"))
+        (self.root / "certify/claims").mkdir()
+        for file in (SOURCES / "certify/claims").glob("coq_text.*"):
+            shutil.copy(file, self.root / "certify/claims")
+        shutil.copy(SOURCES / "run", self.root)
+        tools = self.root / "tools"  # without dpkg-query no package is asked for
+        tools.mkdir()
+        for tool in ("awk", "bash", "dirname", "flock", "mkdir", "nproc", "readlink"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        (tools / "python3").symlink_to(sys.executable)
+        (tools / "coqc").write_text(f"#!/bin/sh\necho called >>{self.calls}\nexit 1\n")
+        (tools / "coqc").chmod(0o755)
+        self.environment = {**os.environ, "PATH": str(tools), "PYTHONDONTWRITEBYTECODE": "1"}
+        spec = importlib.util.spec_from_file_location("prove", self.coq / "prove.py")
+        self.prove = importlib.util.module_from_spec(spec)
+        with mock.patch.object(sys, "path", [str(self.coq), *sys.path]):
+            spec.loader.exec_module(self.prove)
+
+    def proofs(self):
+        self.calls.unlink(missing_ok=True)
+        return subprocess.run([self.root / "run", "prove", "--if-changed"], env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+
+    def is_run(self):
+        done = self.proofs()
+        self.assertIn("not those of certify/coq/PROVED", done.stdout)
+        self.assertEqual(done.returncode, 1)  # this coqc proves nothing
+        self.assertTrue(self.calls.exists())
+
+    def test_they_are_run_where_a_proof_or_the_text_of_a_claim_has_changed(self):
+        proved = self.coq / "PROVED"
+        self.is_run()
+        self.assertFalse(proved.exists())
+        proved.write_text(self.prove.digest_of(self.coq) + "\n")
+        done = self.proofs()
+        self.assertEqual((done.returncode, self.calls.exists()), (0, False), done.stdout)
+        self.assertIn("were checked as they stand", done.stdout)
+        for name in ("coq/loops/Laws.v", "coq/claims/Tests.v", "coq/prove.py", "claims/coq_text.cpp"):
+            with self.subTest(name=name):
+                file = self.root / "certify" / name
+                before = file.read_text()
+                file.write_text(before + "\n")
+                self.is_run()
+                file.write_text(before)
+        (self.coq / "loops/New.v").write_text((self.coq / "loops/Laws.v").read_text())
+        self.is_run()
+        (self.coq / "loops/New.v").unlink()
+        (self.coq / "README.md").write_text("")  # proves nothing
+        self.assertEqual(self.proofs().returncode, 0)
+
+    def test_their_digest_is_written_where_all_has_passed(self):
+        def run(*words, of_corpus=None):
+            """With an answer of Coq in place of Coq."""
+            with mock.patch.multiple(self.prove, self_test=mock.DEFAULT, check=mock.DEFAULT, tell=mock.DEFAULT,
+                                     tell_corpus=mock.Mock(side_effect=of_corpus)), \
+                    mock.patch.object(self.prove.Build, "compile"), mock.patch.object(sys, "argv", ["prove.py", *words]), \
+                    mock.patch.dict(os.environ, self.environment):
+                return self.prove.main()
+        self.assertEqual(run(), 0)
+        self.assertEqual(run("--program", "stiction", "--only", "loops"), 0)
+        self.assertEqual(run("--program", "stiction", of_corpus=self.prove.Failed("refused")), 1)
+        self.assertFalse(self.prove.is_proved(self.coq))
+        self.assertEqual(run("--program", "stiction"), 0)
+        self.assertTrue(self.prove.is_proved(self.coq))
 
 
 if __name__ == "__main__":
