@@ -5,7 +5,9 @@ run_test.py PATH_TO_STICTION
 """
 
 import fcntl
+import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -69,9 +71,11 @@ class WhileAnotherBuilds(cli.TestCase):
             self.called("solve", "x.json", seconds=2)
 
     def test_a_build_for_searches_is_taken_further(self):
-        """Without a lock that another build has, and with a cmake that says how it was called."""
-        calls = self.folder / "calls"
-        for tool, text in (("cmake", f'echo "$@" >>{calls}; touch {self.build}/build.ninja'), ("ninja", "exit 0")):
+        """Without a lock that another build has, and with a cmake that says how it was called to configure."""
+        calls, presets = self.folder / "calls", self.folder / "CMakePresets.json"
+        shutil.copy(cli.ROOT / "CMakePresets.json", presets)
+        cmake = f'[ $1 != -N ] || exec {shutil.which("cmake")} "$@"; echo "$@" >>{calls}; touch {self.build}/build.ninja'
+        for tool, text in (("cmake", cmake), ("ninja", "exit 0")):
             path = self.folder / "tools" / tool
             path.write_text(f"#!{shutil.which('bash')}\n{text}\n")
             path.chmod(0o755)
@@ -79,13 +83,18 @@ class WhileAnotherBuilds(cli.TestCase):
             (self.folder / "tools" / tool).symlink_to(shutil.which(tool))
         fcntl.flock(self.holder, fcntl.LOCK_UN)
         self.make("stiction", "stiction-search", "stiction-ipopt")
-        for verb in ("search", "search", "solve", "solve", "search"):
-            self.assertEqual(self.called(verb).returncode, 0)
-        first, second = calls.read_text().splitlines()
-        self.assertIn("--fresh", first)
-        self.assertIn("-DSTICTION_SEARCH_ONLY=ON", first)
-        self.assertNotIn("--fresh", second)  # which would throw away what is compiled
-        self.assertIn("-DSTICTION_SEARCH_ONLY=OFF", second)
+        def configured(*verbs):
+            calls.write_text("")
+            for verb in verbs:
+                self.assertEqual(self.called(verb).returncode, 0)
+            return [call[call.index("--preset"):] for call in calls.read_text().splitlines()]
+        self.assertEqual(configured("search", "search", "solve", "solve", "search"),
+                         ["--preset search-only --fresh",
+                          "--preset release"])  # --fresh would throw away what is compiled
+        presets.write_text(presets.read_text().replace("-O1", "-O2"))  # of builds of other presets
+        self.assertEqual(configured("solve"), [])
+        presets.write_text(presets.read_text().replace('"Release"', '"RelWithDebInfo"'))
+        self.assertEqual(configured("solve", "solve"), ["--preset release --fresh"])
 
     def test_help_of_what_is_not_built(self):
         done = self.called("help")
@@ -125,6 +134,26 @@ class OfTests(cli.TestCase):
         shown = subprocess.run(["bash", "-c", function_of_run("outputs_of_tests") + 'outputs_of_tests "$@"', "bash", failed, log], text=True,
                                capture_output=True, check=True).stdout
         self.assertEqual(shown, "2/3 Testing: corpus case: a\nbroken\nTest Failed.\n")
+
+
+class Presets(cli.TestCase):
+    def test_each_is_configured_built_and_tested_by_its_name_with_options_that_there_are(self):
+        presets = json.loads((cli.ROOT / "CMakePresets.json").read_text())
+        names = {kind: [one["name"] for one in presets[f"{kind}Presets"] if not one.get("hidden")]
+                 for kind in ("configure", "build", "test")}
+        self.assertEqual(names["configure"], names["build"])
+        self.assertEqual([name for name in names["build"] if name != "search-only"], names["test"])
+        known = (cli.ROOT / "CMakeLists.txt").read_text()
+        for name in names["configure"]:
+            with self.subTest(name=name):
+                said = subprocess.run(["cmake", "-N", "-S", cli.ROOT, "--preset", name], text=True, capture_output=True)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                options = re.findall(r'^  (STICTION_\w+)="', said.stdout, re.M)
+                self.assertIn("STICTION_PYTHON", options)
+                for option in options:
+                    self.assertRegex(known, rf"(?m)^(?:option|set)\({option} ")
+        for configuration in re.search(r"^readonly configurations=\((.*)\)$", (cli.ROOT / "run").read_text(), re.M)[1].split():
+            self.assertIn(configuration, names["configure"])
 
 
 @unittest.skipIf(cli.SHORT, "the scripts are the same for every build")

@@ -33,7 +33,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "fuzz"
-BINARIES = ROOT / "build" / "sanitize"  # as ./run test --nightly configures it, whose tests are sanitized
+BINARIES = ROOT / "build" / "sanitize"  # that of ./run test --nightly, whose tests are sanitized
 TABLE = json.loads((ROOT / "tests/fuzz/targets.json").read_text())
 
 SECONDS_PER_INPUT = 20
@@ -45,9 +45,7 @@ WORDS_IN_DICTIONARY = 500
 
 def build(targets, jobs):
     if not (BINARIES / "build.ninja").exists():
-        subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", BINARIES, "-DCMAKE_CXX_COMPILER=clang++",
-                        "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS=-O1", "-DCMAKE_CXX_FLAGS_DEBUG=-gline-tables-only",
-                        "-DSTICTION_FUZZ=ON", "-DSTICTION_PYTHON=OFF"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "-S", ROOT, "--preset", "sanitize"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", BINARIES, "-j", str(jobs), *(f"fuzz_{name}" for name in targets)], check=True)
 
 
