@@ -1,6 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solve: one problem, one method, one answer. Entry of the library.
 //
+//   #include <iostream>
+//
+//   #include "solver/solve.h"
+//
+//   int main() {  // a box of 1 kg on a floor, mu = 0.5, pulled sideways by 8 N
+//     stiction::ContactProblem<double> problem;
+//     problem.contacts = {{stiction::ContactKind::kStatic, 0.5}};
+//     problem.A = Eigen::Matrix2d::Identity();  // 1/kg
+//     problem.b = Eigen::Vector2d(-10, 8);      // without contact: it falls, and slides
+//     const auto answer = stiction::Solve(problem);
+//     std::cout << Name(answer.outcome) << ", f = " << answer.f.transpose() << '\n';
+//   }
+//
+// prints: solved, f = 10 -5
+//
 // Methods() is the table of all that this library has over a scalar; whatever chooses or names a method reads
 // it. Solve() does what every call needs:
 //
@@ -13,10 +28,6 @@
 //             (numeric/refine.h); whatever else claims to be solved is `undecided`
 //
 // Over exact scalars nothing is scaled, and the gate is the verification of certify.
-//
-//   ContactProblem<double> problem = ...;
-//   const Answer<double> answer = Solve(problem);
-//   if (answer.Solved()) use(answer.f);
 
 #ifndef STICTION_SOLVER_SOLVE_H_
 #define STICTION_SOLVER_SOLVE_H_

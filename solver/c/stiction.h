@@ -4,23 +4,36 @@
 //   normal      f_n >= 0, a_n >= 0, one of them zero
 //   friction    abs(f_t) <= mu f_n; where a_t is not zero, f_t has that length and opposes it
 //
+//   #include <stdio.h>
+//   #include <stiction.h>
+//
+//   int main(void) {  // a box of 1 kg on a floor, mu = 0.5, pulled sideways by 8 N
+//     const stiction_contact floor = {STICTION_STATIC, 0.5, {0}};
+//     const double A[] = {1, 0, 0, 1}, b[] = {-10, 8};  // 1/kg; without contact: it falls, and slides
+//     const stiction_dense problem = {
+//         .dimension = 2, .contact_count = 1, .contacts = &floor, .rows = 2, .A = A, .b = b};
+//     double f[2], a[2];
+//     stiction_answer answer = {.forces = f, .accelerations = a};
+//     stiction_context* context = stiction_create();
+//     if (stiction_solve_dense(context, &problem, NULL, &answer) == STICTION_SOLVED)
+//       printf("f = %g %g N, it slides by %g m/s^2\n", f[0], f[1], a[1]);
+//     else
+//       puts(stiction_message(context));
+//     stiction_destroy(context);
+//   }
+//
+// prints: f = 10 -5 N, it slides by 3 m/s^2
+//
 // A problem is given in factors, A = J M^-1 J' and b = J w + c, of sparse J and masses of bodies, or as numbers
 // A and b. In a velocity step f are impulses and a velocities: velocity_step.md says what b is then, and which
 // rows of an engine have no counterpart here.
-//
-//   stiction_context* context = stiction_create();
-//   stiction_answer answer = {.forces = f};
-//   if (stiction_solve(context, &problem, NULL, &answer) == STICTION_SOLVED) use(f);
-//   else puts(stiction_message(context));
-//   stiction_destroy(context);
 //
 // Rows follow the contacts: a bilateral or frictionless contact has one row, a static or sliding one its normal
 // row and then dimension - 1 tangential rows, in directions at right angles.
 //
 // Threads        There are no globals. A context serves one thread at a time; each thread has its own.
-// Errors         No exception and no abort crosses this interface. Whatever is given is checked before it is
-// used. Determinism    The same calls on a fresh context give the same bytes. A call's answer depends on
-// earlier ones by
+// Errors         No exception and no abort crosses this interface. What is given is checked before it is used.
+// Determinism    The same calls on a fresh context give the same bytes. An answer depends on earlier calls by
 //                the forces it starts from alone, and with warm = 0 not at all.
 // Structures     may grow with the minor version (0.x); a field that a caller sets to 0 or NULL says "none".
 
