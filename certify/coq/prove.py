@@ -229,8 +229,8 @@ def digest_of(sources):
     program says of the corpus, which the night looks at."""
     files = [path for path in sources.rglob("*") if path.suffix in (".v", ".py", ".ml", ".json")]
     files += (sources.parent / "claims").glob("coq_text.*")
-    lines = (f"{path.relative_to(sources.parent)} {hashlib.sha256(path.read_bytes()).hexdigest()}\n" for path in sorted(files))
-    return hashlib.sha256("".join(lines).encode()).hexdigest()
+    lines = (f"{path.relative_to(sources.parent)} {hashlib.sha256(path.read_bytes()).hexdigest()}" for path in sorted(files))
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 
 
 def is_proved(sources):

@@ -46,7 +46,7 @@ GENERATED = re.compile(r"reports/(examples|web/dist|web/solver)/|.*\.(svg|png|pd
 PROOFS = ("certify/condition_number.md", "certify/coq/README.md", "certify/existence.md", "certify/related_work.md",
           "certify/where_loops_begin.md", "search/adversary/frontiers.md", "solver/complete/complete_driving.md",
           "solver/complete/equivalence.md", "solver/published/mending.md", "solver/published/readings.md")
-CHECKERS = ("certify/check_certificate.py", "certify/check_runs.py", "certify/check_runs_in_space.py", "certify/residuals.py")
+CHECKERS = tuple(f"certify/{name}.py" for name in ("check_certificate", "check_runs", "check_runs_in_space", "residuals"))
 
 
 def git(*words):
@@ -104,7 +104,8 @@ def depth(name, own, known):
 
 TYPE = re.compile(r"^\s*(?:template <[^;{]*>\s*)?(?:struct|class|enum|enum class|union) (?!class)\w+[^;(]*\{", re.M)
 STRUCT = re.compile(r"\b(?:struct|class)\s+(\w+)\s*(?:final\s*)?(?:<[^;{]*>\s*)?(?::[^;{}]*)?\{")
-FUNCTION = re.compile(r"(?:^|\n)[ ]{0,2}((?:[\w:]+(?:<[^;{}()]*>)?[&*]?\s+)*)([\w:~]+)\(([^;{}]*?)\)\s*(?:const|override|\s)*\{")
+FUNCTION = re.compile(r"(?:^|\n)[ ]{0,2}((?:[\w:]+(?:<[^;{}()]*>)?[&*]?\s+)*)([\w:~]+)"  # what it returns, name
+                      r"\(([^;{}]*?)\)\s*(?:const|override|\s)*\{")
 
 
 def bare(code):
@@ -161,7 +162,8 @@ def functions(codes):
     for name, code in codes.items():
         for found in FUNCTION.finditer(code):
             if found[2] not in ("if", "for", "while", "switch", "catch"):
-                yield name, place(name, code, found.start(2)), found[1].strip(), found[2], found[3], body(code, found.end() - 1)
+                inside = body(code, found.end() - 1)
+                yield name, place(name, code, found.start(2)), found[1].strip(), found[2], found[3], inside
 
 
 def problem_types(codes):
@@ -203,7 +205,7 @@ def options_of_solving(codes):
 
 
 def judges(codes):
-    says = re.compile(r"(?:inline |constexpr |static )*(?:bool|double|auto|Scalar|Rational|Errors<.*>|std::optional<.*>|\w*Forces)$", re.S)
+    says = re.compile(r"\b(?:bool|double|auto|Scalar|Rational|Errors<.*>|std::optional<.*>|\w*Forces)$", re.S)
     rows = [row for row in functions(codes)
             if says.search(row[2]) and re.search(r"Problem\w*(?:<[^,]*>)?& ", row[4])
             and re.search(r"Vector\w*& \w+|\bVector f\b|\bVectorXd& ", row[4])
@@ -225,13 +227,14 @@ def judges(codes):
 
 
 def judges_in_python(name):
-    code = text(name)
+    code, found = text(name), []
     forces = r"(?:\w+\.)?mu(?:\[\w+\])? \* (?:max\([^()]*)?(?:self\.)?f|f\w*\W*\* \w+\.mu\b"
     for one in ast.walk(ast.parse(code)):
         if isinstance(one, ast.FunctionDef):
             inside = ast.get_source_segment(code, one)
             if re.search(forces, inside) and re.search(r"\b(?:self\.)?a[NF]?\b", inside):
-                yield f"{name}:{one.lineno} {one.name}"
+                found.append(f"{name}:{one.lineno} {one.name}")
+    return found
 
 
 # ---- What is measured otherwise ----
@@ -251,8 +254,8 @@ def build_seconds(build, target="stiction"):
 def compiled(sources, build):
     """Processor seconds of the program, compiled from nothing by the release's options."""
     shutil.rmtree(build, ignore_errors=True)
-    said = subprocess.run(["cmake", "-N", "-S", ROOT, "--preset", "release"], check=True, capture_output=True, text=True).stdout
-    options = [f"-D{name}={value}" for name, value in re.findall(r'^  (\w+)="(.*)"$', said, re.M)]
+    said = subprocess.run(["cmake", "-N", "-S", ROOT, "--preset", "release"], check=True, capture_output=True, text=True)
+    options = [f"-D{name}={value}" for name, value in re.findall(r'^  (\w+)="(.*)"$', said.stdout, re.M)]
     subprocess.run(["cmake", "-G", "Ninja", "-S", sources, "-B", build, *options], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", build, "-j", str(os.cpu_count()), "stiction"], check=True, stdout=sys.stderr)
     return build_seconds(build)
@@ -289,7 +292,8 @@ def commits_with_generated():
     later = listed.split()[:-(len(listed.split()) // 2) or None] if listed else []
     found = []
     for commit in later:
-        carried = [name for name in git("show", "--format=", "--name-only", commit, "--").split("\n") if GENERATED.match(name)]
+        touched = git("show", "--format=", "--name-only", commit, "--").split("\n")
+        carried = [name for name in touched if GENERATED.match(name)]
         if carried:
             found.append(f"{commit[:8]}: {', '.join(carried)}")
     return (len(later), found) if later else None
@@ -315,7 +319,7 @@ def measures(build, share):
     yield counted("cascades", cascades(codes), 1)
     yield counted("options of solving", options_of_solving(codes), 1)
     yield counted("judges in C++", judges(codes), 2)
-    yield counted("judges of a Python checker, at most", max((list(judges_in_python(name)) for name in CHECKERS), key=len), 1)
+    yield counted("judges of a Python checker, at most", max(map(judges_in_python, CHECKERS), key=len), 1)
     yield counted("loops over tallies outside of tables and records",
                   [f"{place(name, code, found.start())}" for name, code in codes.items()
                    if not name.startswith(("reports/tables/", "corpus/record/"))
@@ -324,14 +328,16 @@ def measures(build, share):
     yield counted(f"sources that read the whole JSON library, of {len(sources)}",
                   [name for name in sorted(sources)
                    if any(header in JSON_HEADERS for one in reached(name, own) for header in foreign[one])], 60)
-    yield "longest page of a folder, in lines", max(len(text(name).splitlines()) for name in git("ls-files", "*README.md").split()), 120, []
+    pages = {name: len(text(name).splitlines()) for name in git("ls-files", "*README.md").split()}
+    yield "longest page of a folder, in lines", max(pages.values()), 120, [name for name in pages if pages[name] > 120]
     yield "words of the texts, proofs and measured tables apart", sum(words.values()), 45_000, []
     seconds = build_seconds(build)
     yield f"compilation, a share of {FIRST}'s" + (f"; here {seconds} s" if seconds else ""), share, 0.67, []
     generated = commits_with_generated()
     yield ("commits with a generated file, per cent" + (f" of {generated[0]}" if generated else ""),
            round(100 * len(generated[1]) / generated[0]) if generated else None, 5, generated[1] if generated else [])
-    yield "megabytes of examples", round(sum((ROOT / name).stat().st_size for name in git("ls-files", "reports/examples").split()) / 1e6, 1), 8, []
+    examples = git("ls-files", "reports/examples").split()
+    yield "megabytes of examples", round(sum((ROOT / name).stat().st_size for name in examples) / 1e6, 1), 8, []
     for recipe, most in RECIPES.items():
         yield f"files of the recipe for a {recipe}", recipe_files(recipe), most, []
     yield "drawn mutants that no test notices, per cent", survivors(), 10, []
