@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """package_test.py PROGRAM SOURCES: the Python package says what the program says."""
 import ast
+import doctest
 import inspect
 import json
 import random
@@ -32,6 +33,19 @@ def without_seconds(json):
     """What two runs have in common."""
     return {key: {k: v for k, v in value.items() if k != "seconds"} if isinstance(value, dict) else value
             for key, value in json.items()}
+
+
+class Readme(unittest.TestCase):
+    def test_the_session_on_the_first_page_prints_what_stands_there(self):
+        page = (SOURCES / "README.md").read_text()
+        self.assertLess(page.index("    ./run python\n"), page.index("| question |"))  # the first screen
+        session = page[page.index("    ./run python\n"):].split("\n\n")[0].splitlines()[1:]
+        test = doctest.DocTestParser().get_doctest("\n".join(line.strip() for line in session) + "\n", {}, "README.md",
+                                                   "README.md", 0)
+        runner = doctest.DocTestRunner(verbose=False)
+        runner.run(test)
+        self.assertEqual((runner.failures, runner.tries), (0, len(test.examples)))
+        self.assertGreaterEqual(len(test.examples), 3)
 
 
 class Problems(unittest.TestCase):

@@ -11,7 +11,6 @@ import zipfile
 from pathlib import Path
 
 BUILD, SOURCES = Path(sys.argv[1]).parent, Path(sys.argv[2])
-README = (SOURCES / "README.md").read_text()
 CLEAN = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
 
 
@@ -65,17 +64,6 @@ class Pip(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         last = done.stderr.splitlines()[-1]
         self.assertRegex(last, r"^ImportError: stiction: found no compiled module .*\./run python.*pip install")
-
-    def test_the_lines_of_the_readme_work_as_they_stand(self):
-        block = README[README.index("    ./run python\n"):].split("\n\n")[0].splitlines()[1:]
-        session = "\n".join(line.strip() for line in block)
-        import doctest
-        test = doctest.DocTestParser().get_doctest(session + "\n", {}, "README.md", "README.md", 0)
-        os.chdir(SOURCES)
-        runner = doctest.DocTestRunner(verbose=False)
-        runner.run(test)
-        self.assertEqual((runner.failures, runner.tries), (0, len(test.examples)))
-        self.assertGreaterEqual(len(test.examples), 3)
 
 
 if __name__ == "__main__":
