@@ -34,7 +34,7 @@ int BecomeBench(const BenchCommand& o) {
 
 }  // namespace
 
-const ListedVerb kBenchVerb("About stiction", 40, [](CommandLine& program) {
+const ListedVerb kBenchVerb("Solve", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("bench", kBenchPurpose, BecomeBench);
   verb.footer =
       "Its words are read by the program stiction-bench, which stands beside this one. Questions that are "

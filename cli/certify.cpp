@@ -282,7 +282,7 @@ std::vector<AllowedValue> ClaimChoices() {
 
 }  // namespace
 
-const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
+const ListedVerb kCertifyVerb("Prove", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("certify", "Write a certificate: a claim with an exact witness", RunCertify);
   verb.footer =
       "A claim is proved; or disproved, by the certificate of its negation (exit 0), or by a run that ends "
@@ -327,7 +327,7 @@ const ListedVerb kCertifyVerb("One problem", 30, [](CommandLine& program) {
   AddLimits(verb, o.limits);
 });
 
-const ListedVerb kCheckVerb("One problem", 40, [](CommandLine& program) {
+const ListedVerb kCheckVerb("Prove", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
   verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");

@@ -30,7 +30,7 @@ class CommandLine {
     return {verb, *options};
   }
 
-  // Every listed verb, by these groups and its place in them; no group may be missing.
+  // Every listed verb, by these jobs and its place in them; no job may be missing.
   void AddListed(std::initializer_list<std::string_view> groups);
 
   // Reads the command line and runs the verb; its exit code, or 2 with what is wrong on standard error.
@@ -47,7 +47,7 @@ class CommandLine {
   int Help(const std::string& verb) const;
 };
 
-// A verb in the list of the program, from before main: its group in the help, its place there, and what adds
+// A verb in the list of the program, from before main: its job, its place there, and what adds
 // it. The file of the verb has it, and nothing else names the verb.
 struct ListedVerb {
   ListedVerb(std::string_view group, int place, void (*add)(CommandLine&));

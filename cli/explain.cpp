@@ -23,7 +23,7 @@ int RunExplain(const ExplainVerb& o) {
 
 }  // namespace
 
-const ListedVerb kExplainVerb("One problem", 15, [](CommandLine& program) {
+const ListedVerb kExplainVerb("Solve", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add(
       "explain", "What a problem is, whether it has a solution, and what the methods do on it", RunExplain);
   verb.footer =

@@ -96,7 +96,7 @@ int Export(const FormatsVerb& o) {
 
 }  // namespace
 
-const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandLine& program) {
+const ListedVerb kImportVerb("Solve", 80, [](CommandLine& program) {
   auto [verb, o] = program.Add("import", "Write what is read as a whole stiction-problem file", Import);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()
@@ -113,7 +113,7 @@ const ListedVerb kImportVerb("Scenes and other programs' files", 40, [](CommandL
     })");
 });
 
-const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
+const ListedVerb kExportVerb("Solve", 90, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("export", "Write a problem in another format, or a program that shows a finding", Export);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);

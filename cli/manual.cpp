@@ -140,8 +140,12 @@ std::string ManPage(const CommandLine& program) {
       "Searches for problems on which the pivoting algorithm of D. Baraff, Fast Contact Force Computation for "
       "Nonpenetrating Rigid Bodies (1994), loops for ever; replays them, certifies them, and reports on "
       "them.\n";
-  text += Section("VERBS");
-  for (const Verb& verb : program.verbs) text += VerbInMan(verb);
+  std::string group;
+  for (const Verb& verb : program.verbs) {
+    if (verb.group != group) text += Section("VERBS: " + verb.group);
+    group = verb.group;
+    text += VerbInMan(verb);
+  }
   text += Section("EXIT STATUS") + Lines(program.footer);
   text += Section("WORDS");
   for (const Word& word : AllWords())
@@ -219,7 +223,8 @@ Json TablesInJson(const CommandLine& program) {
   for (const Verb& verb : program.verbs) {
     Json rows = Json::array();
     for (const OptionRow& row : verb.rows) rows.push_back(RowInJson(row));
-    verbs.push_back({{"verb", verb.name}, {"purpose", verb.purpose}, {"words", std::move(rows)}});
+    verbs.push_back(
+        {{"verb", verb.name}, {"group", verb.group}, {"purpose", verb.purpose}, {"words", std::move(rows)}});
   }
   return verbs;
 }
@@ -260,7 +265,7 @@ int Write(const ManualOptions& o) {
 
 }  // namespace
 
-const ListedVerb kManualVerb("About stiction", 50, [](CommandLine& program) {
+const ListedVerb kManualVerb("Show", 60, [](CommandLine& program) {
   auto [verb, o] = program.Add("manual", "The manual page, and the completion of a shell", Write);
   o.program = &program;
   verb.Option("--format", o.format, "what to write")
@@ -271,7 +276,7 @@ const ListedVerb kManualVerb("About stiction", 50, [](CommandLine& program) {
               "instead: a folder to write JSON schemas into: of what --json of each verb prints, and of "
               "campaign files");
   verb.Prints(o.json, "the command line", R"([{
-      verb: text, purpose: text,
+      verb: text, group: text, purpose: text,
       words: [{kind: "positional" | "option" | "flag", names: [text+], type: "" | "TEXT" | "INTEGER" | "NUMBER",
                help: text, required: truth, repeated: truth, default: text,
                choices: [{name: text, meaning: text}]}]}])")

@@ -54,7 +54,7 @@ int List(const bool& json) {
 
 }  // namespace
 
-const ListedVerb kMethodsVerb("About stiction", 10, [](CommandLine& program) {
+const ListedVerb kMethodsVerb("Solve", 40, [](CommandLine& program) {
   auto [verb, json] =
       program.Add("methods", "The methods, what their ends prove, and where they are built", List);
   verb.Prints(json, "the methods, and in which arithmetics they are built", R"([{

@@ -158,7 +158,7 @@ int RunMinimize(const MinimizeVerb& o) {
 
 }  // namespace
 
-const ListedVerb kMinimizeVerb("One problem", 50, [](CommandLine& program) {
+const ListedVerb kMinimizeVerb("Find", 30, [](CommandLine& program) {
   auto [verb, o] = program.Add("minimize", "A simpler problem with the same certified finding", RunMinimize);
   verb.Positional("FILE", o.file, kFileHelp)
       .Required()

@@ -28,7 +28,7 @@ int ListPolicies(const bool& json) {
 
 }  // namespace
 
-const ListedVerb kPoliciesVerb("About stiction", 20, [](CommandLine& program) {
+const ListedVerb kPoliciesVerb("Show", 20, [](CommandLine& program) {
   auto [verb, json] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
   verb.Prints(json, "the switches of the policies", R"([{
       switch: text, question: text, planar: truth,

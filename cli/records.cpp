@@ -132,7 +132,7 @@ OwnSearch OwnSearchOf(const Store& store) {
   return own;
 }
 
-const ListedVerb kRecordsVerb("Search", 70, [](CommandLine& program) {
+const ListedVerb kRecordsVerb("Find", 50, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
   std::vector<std::string> objectives;

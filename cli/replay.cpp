@@ -282,7 +282,7 @@ std::vector<AllowedValue> PathMethodChoices() {
 
 }  // namespace
 
-const ListedVerb kReplayVerb("One problem", 20, [](CommandLine& program) {
+const ListedVerb kReplayVerb("Show", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("replay", "Follow a path method step by step, exactly where it can be", Replay);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   AddPolicyOption(verb, o.policy, Grid::kRefused);

@@ -205,7 +205,7 @@ int RunReport(const ReportVerb& o) {
 
 }  // namespace
 
-const ListedVerb kReportVerb("Search", 30, [](CommandLine& program) {
+const ListedVerb kReportVerb("Show", 50, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("report", "Write a store as an HTML page, CSV files and problem files", RunReport);
   verb.Positional("STORE", o.store, "store of a search; none with --bench alone");

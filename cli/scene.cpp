@@ -441,7 +441,7 @@ int RunDrawVerb(const AssembleCommand& o) {
 
 }  // namespace
 
-const ListedVerb kAssembleVerb("Scenes and other programs' files", 10, [](CommandLine& program) {
+const ListedVerb kAssembleVerb("Solve", 60, [](CommandLine& program) {
   auto [verb, o] = program.Add("assemble", "The contact problems of a scene, over rationals", RunAssembleVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output")
@@ -457,7 +457,7 @@ const ListedVerb kAssembleVerb("Scenes and other programs' files", 10, [](Comman
               "{problems: [{file: text, contacts: integer, rows: integer}], explained: [text]}");
 });
 
-const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](CommandLine& program) {
+const ListedVerb kSimulateVerb("Solve", 70, [](CommandLine& program) {
   auto [verb, o] = program.Add("simulate", "Step a scene through time, over doubles", RunSimulateVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output, "folder to write; what a run before wrote is replaced")
@@ -495,7 +495,7 @@ const ListedVerb kSimulateVerb("Scenes and other programs' files", 20, [](Comman
               "speed_m_per_s: rounded, does: \"rests\" | \"flies\" | \"creeps\" | \"slides\" | \"moves\"}]}");
 });
 
-const ListedVerb kDrawVerb("Scenes and other programs' files", 30, [](CommandLine& program) {
+const ListedVerb kDrawVerb("Show", 40, [](CommandLine& program) {
   auto [verb, o] = program.Add("draw", "A scene as a picture, with its contacts and forces", RunDrawVerb);
   verb.Positional("SCENE", o.scene, kSceneHelp).Required();
   verb.Option("-o,--output", o.output,

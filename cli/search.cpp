@@ -679,7 +679,7 @@ void AddCampaignOptions(Verb& verb, CampaignWords& o) {
 
 }  // namespace
 
-const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
+const ListedVerb kSearchVerb("Find", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("search", "Search for loops of the published algorithm", RunSearchVerb);
   verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file; by default all generators and sizes");
   AddCampaignOptions(verb, o.words);
@@ -720,7 +720,7 @@ const ListedVerb kSearchVerb("Search", 10, [](CommandLine& program) {
   verb.footer += "\nObjectives:" + HelpOf(Objectives()) + "\nOptimizers:" + HelpOf(Optimizers());
 });
 
-const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
+const ListedVerb kStatusVerb("Find", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("status", "What a store holds, of a running or a stopped search", RunStatus);
   verb.Positional("STORE", o.store, "store of a search").Required();
   verb.Flag("--watch", o.watch, "say what is new every two seconds while a process works on it")
@@ -728,7 +728,7 @@ const ListedVerb kStatusVerb("Search", 20, [](CommandLine& program) {
   verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
 });
 
-const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
+const ListedVerb kMergeVerb("Find", 60, [](CommandLine& program) {
   auto [verb, o] = program.Add("merge", "Join the stores of one campaign", RunMerge);
   verb.Positional("OUT", o.out, "store to write or to add to").Required();
   verb.Positional("STORE", o.stores, "stores to take in").Required();
@@ -736,7 +736,7 @@ const ListedVerb kMergeVerb("Search", 40, [](CommandLine& program) {
   verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
 });
 
-const ListedVerb kProblemVerb("Search", 60, [](CommandLine& program) {
+const ListedVerb kProblemVerb("Find", 40, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("problem", "Write any problem that a search tried as a problem file", RunProblem);
   verb.footer =

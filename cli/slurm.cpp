@@ -265,7 +265,7 @@ int RunSlurm(const SlurmVerb& o) {
 
 }  // namespace
 
-const ListedVerb kSlurmVerb("Search", 50, [](CommandLine& program) {
+const ListedVerb kSlurmVerb("Find", 70, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
   verb.footer =

@@ -304,7 +304,7 @@ std::vector<AllowedValue> MethodChoices() {
 
 }  // namespace
 
-const ListedVerb kSolveVerb("One problem", 10, [](CommandLine& program) {
+const ListedVerb kSolveVerb("Solve", 10, [](CommandLine& program) {
   auto [verb, o] = program.Add("solve", "Solve problems", RunSolve);
   verb.footer =
       "Outcomes: solved (exit 0); no-solution, cycle, ray, singular (exit 1); limit, undecided (exit 3). "

@@ -14,7 +14,7 @@ int Main(int argc, char** argv) {
   if (const auto exit = RunAsSolverHost(argc, argv)) return *exit;
   CommandLine program("stiction: does Baraff's algorithm for contact forces with static friction always end?",
                       "stiction " + BuildId(), kExitCodes);
-  program.AddListed({"Search", "One problem", "Scenes and other programs' files", "About stiction"});
+  program.AddListed({"Find", "Prove", "Solve", "Show"});
   return program.Run(argc, argv);
 }
 

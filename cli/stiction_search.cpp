@@ -15,7 +15,7 @@ int Main(int argc, char** argv) {
   if (const auto exit = RunAsSolverHost(argc, argv)) return *exit;
   CommandLine program("stiction-search: the verbs of stiction that search, and tell what a search found",
                       "stiction " + BuildId(), kExitCodes);
-  program.AddListed({"Search"});
+  program.AddListed({"Find"});
   return program.Run(argc, argv);
 }
 

@@ -176,7 +176,7 @@ int Survey(const SurveyVerb& o) {
 
 }  // namespace
 
-const ListedVerb kSurveyVerb("One problem", 60, [](CommandLine& program) {
+const ListedVerb kSurveyVerb("Solve", 30, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("survey", "Judge problems: the paper's assumptions, what solves them, and how well", Survey);
   verb.footer =

@@ -5,7 +5,7 @@
 //   struct ExportOptions { std::string file, output, format; bool round = false; };
 //   int Export(const ExportOptions& o);
 //
-//   const ListedVerb kExportVerb("Scenes and other programs' files", 50, [](CommandLine& program) {
+//   const ListedVerb kExportVerb("Solve", 90, [](CommandLine& program) {
 //     auto [verb, o] = program.Add("export", "Write a problem in the format of another program", Export);
 //     verb.Positional("FILE", o.file, "stiction-problem file").Required();
 //     verb.Option("-o,--output", o.output, "file to write").Required();
@@ -108,7 +108,7 @@ class Verb {
 
   std::string name;
   std::string purpose;                       // one line
-  std::string group;                         // in the list of verbs
+  std::string group;                         // in the list of verbs: the job
   std::string answer, answer_shape;          // of --json
   std::string footer;                        // behind the rows of the help
   std::vector<std::string>* rest = nullptr;  // takes all words as they are, --help too

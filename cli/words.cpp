@@ -164,7 +164,7 @@ std::string GlossaryOf(std::string_view text) {
   return glossary;
 }
 
-const ListedVerb kWordsVerb("About stiction", 30, [](CommandLine& program) {
+const ListedVerb kWordsVerb("Show", 30, [](CommandLine& program) {
   auto [verb, in_json] = program.Add("words", "What the words of answers and replays mean", List);
   verb.Prints(in_json, "what words mean", R"([{
       word: text, meaning: text,

@@ -66,7 +66,6 @@ class WhileAnotherBuilds(cli.TestCase):
                 done = self.called(*words)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(said, done.stdout)
-        self.assertEqual(self.called("help", "solve").returncode, 2)
         with self.assertRaises(subprocess.TimeoutExpired):  # whose program is built first
             self.called("solve", "x.json", seconds=2)
 
@@ -97,12 +96,26 @@ class WhileAnotherBuilds(cli.TestCase):
         self.assertEqual(configured("solve", "solve"), ["--preset release --fresh"])
 
     def test_help_of_what_is_not_built(self):
+        """The verbs are read from their sources: those of a program that is built, by the same jobs."""
+        for tool in ("grep", "sed", "sort", "tr"):
+            (self.folder / "tools" / tool).symlink_to(shutil.which(tool))
+        (self.folder / "cli").symlink_to(cli.ROOT / "cli")
         done = self.called("help")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("./run test", done.stdout)
+        self.assertLessEqual(max(map(len, done.stdout.splitlines())), 100)
+        listed, group = [], ""
+        for line in done.stdout.splitlines():
+            group = line[:-1] if line.endswith(":") else group
+            if line.startswith("  "):
+                listed.append((group, *line.split(maxsplit=1)))
+        verbs = self.succeeds("manual", "--json").json()
+        self.assertEqual(listed, [(verb["group"], verb["verb"], verb["purpose"]) for verb in verbs])
         done = self.called("help", "solve")
-        self.assertEqual(done.returncode, 2)
+        self.assertEqual((done.returncode, done.stdout), (0, "  solve      Solve problems\n"))
         self.assertIn("nothing is built yet; ./run solve --help", done.stderr)
+        self.assertEqual(self.called("help", "slove").returncode, 2)
+        self.assertIn("--if-changed", self.called("help", "prove").stdout)
 
     def test_a_program_that_is_not_there_is_waited_for(self):
         self.make("stiction")  # but not stiction-ipopt

@@ -167,7 +167,7 @@ class Terminal(cli.TestCase):
             self.assertEqual(self.succeeds(*words).out, whole)
         self.assertEqual(self.succeeds("help", "solve").out, self.succeeds("solve", "--help").out)
         self.assertEqual(self.succeeds("help", "solve").out, self.succeeds("solve", "-h").out)
-        for group in ("Search", "One problem", "About stiction"):
+        for group in ("Find", "Prove", "Solve", "Show"):
             self.assertIn(f"\n{group}:\n", whole)
 
     def test_short_options_are_the_long_ones(self):
