@@ -184,6 +184,7 @@ class IfChanged(unittest.TestCase):
                 return self.prove.main()
         self.assertEqual(run(), 0)
         self.assertEqual(run("--program", "stiction", "--only", "loops"), 0)
+        self.assertEqual(run("--program", "stiction", "--family"), 0)  # the night leaves the tree as it is
         self.assertEqual(run("--program", "stiction", of_corpus=self.prove.Failed("refused")), 1)
         self.assertFalse(self.prove.is_proved(self.coq))
         self.assertEqual(run("--program", "stiction"), 0)
