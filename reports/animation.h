@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a run of a scene: one file that needs nothing else, which plays it, and shows the forces of each
-// frame with their numbers. Bundled ahead of time (web/), like viewer.h.
+// frame with their numbers. Joined by the build (web/), like viewer.h.
 
 #ifndef STICTION_REPORTS_ANIMATION_H_
 #define STICTION_REPORTS_ANIMATION_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The replay viewer: one page that needs nothing else, in which a reader steps through runs on a problem.
 //
-// The page is bundled ahead of time (web/), and embedded into the program; here it gets its title and its data.
+// The build joins the page (web/) and embeds it into the program; here it gets its title and its data.
 
 #ifndef STICTION_REPORTS_VIEWER_H_
 #define STICTION_REPORTS_VIEWER_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two campaigns, or solvers under test, side by side, as one page that needs nothing else.
 //
-// The page is bundled ahead of time (web/), and embedded into the program; here it gets its sentences, its
+// The build joins the page (web/) and embeds it into the program; here it gets its sentences, its
 // tables, and what its figures draw: the very cells of comparison.csv and comparison_steps.csv.
 
 #ifndef STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_

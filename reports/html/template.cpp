@@ -11,7 +11,7 @@ std::string FilledTemplate(std::string_view page, const std::map<std::string, Ht
     const std::string mark = "{{" + name + "}}";
     const std::size_t at = page.find(mark);
     STICTION_CHECK(at != page.npos && page.find(mark, at + 1) == page.npos,
-                   "expected the mark " + mark + " once in a page of web/dist");
+                   "expected the mark " + mark + " once in a page of web/src");
     places[at] = name;
   }
   std::string filled;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages that web/build.mjs has bundled, and that the program fills.
+// Pages that the build has joined (web/join.py), and that the program fills.
 
 #ifndef STICTION_REPORTS_HTML_TEMPLATE_H_
 #define STICTION_REPORTS_HTML_TEMPLATE_H_

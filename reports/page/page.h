@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages of a report, each an HTML document that needs nothing else: what was found, in few screens; all
 // that was counted; the findings, which are read when they are asked for. Sections, tables and sentences stand
-// there as text; scripts draw the figures, play a loop and make the findings sortable (web/, bundled ahead of
-// time).
+// there as text; scripts draw the figures, play a loop and make the findings sortable (web/).
 
 #ifndef STICTION_REPORTS_PAGE_PAGE_H_
 #define STICTION_REPORTS_PAGE_PAGE_H_

@@ -24,6 +24,9 @@ import markdown
 
 ROOT = Path(__file__).resolve().parents[2]
 WEB = ROOT / "reports/web"
+sys.path.insert(0, str(WEB))
+import join  # noqa: E402
+
 SHEETS = ("page.css", "scroll.css", "site.css")
 MARK = ".stiction-site"  # in a folder that this program may write again
 PAGES = {"index.html": "Story", "gallery.html": "Gallery", "paste.html": "Paste your matrix", "theorem.html": "Theorem",
@@ -210,7 +213,7 @@ and <a href="docs/certify/coq/index.html">what a reader must trust</a> is short.
 <pre tabindex="0"><code>{html.escape(quoted)}</code></pre>""")
 
     def paste(self):
-        text = (WEB / "dist/paste.html").read_text()
+        text, _ = join.page("paste")
         self.write("paste.html", text.replace("{{navigation}}", navigation("paste.html")))
 
     def report(self, store):

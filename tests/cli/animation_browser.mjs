@@ -5,18 +5,16 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 
+import {framesOf} from '../../reports/web/src/frames.js';
 import {assertColourScheme, assertHeadings, assertRunsNoOtherScript, contrasts, openFile} from './page.mjs';
-
-// From the copy of the sources that has their packages.
-const {framesOf} = await import(`${process.env.PACKAGES}/src/frames.js`);
 
 const {PROGRAM} = process.env;
 const names = ['plane', 'space', 'large'];
 const opened = (name, use, options = {}) =>
-    openFile(`${name}.html`, use, {mayAsk: url => url.startsWith('blob:'), ...options});
+    openFile(`${name}.html`, use, {ready: '#player input', mayAsk: url => url.startsWith('blob:'), ...options});
 const dataOf = async page => {
   const data = await page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
-  return {...data, frames: framesOf(data)};
+  return {...data, frames: await framesOf(data)};
 };
 const frame = page => page.$eval('#player input', slider => Number(slider.value));
 // Of all contacts.

@@ -86,7 +86,7 @@ export async function assertHeadings(page) {
   for (const [i, level] of levels.entries()) assert.ok(level <= (levels[i - 1] ?? 0) + 1, levels.join(' '));
 }
 
-// A script that was not there when the page was bundled does not run.
+// A script that was not there when the page was joined does not run.
 export async function assertRunsNoOtherScript(file) {
   const context = await browser.newContext();
   const page = await context.newPage();

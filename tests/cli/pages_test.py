@@ -31,6 +31,7 @@ async function look(name) {
   view.src = name;
   await there;
   const page = view.contentDocument, frames = [];
+  while (page.querySelector('.place') === null) await new Promise(done => setTimeout(done, 1));  // unpacked
   const press = key => page.dispatchEvent(new view.contentWindow.KeyboardEvent('keydown', {key}));
   const sizes = () => [...page.querySelectorAll('#picture :is(path, circle, polygon, line)')]
                           .map(shape => shape.getBoundingClientRect()).map(box => box.width + box.height);

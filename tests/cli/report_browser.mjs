@@ -221,9 +221,15 @@ test('a figure shows another policy when one is chosen, by the keyboard', async 
 
 // ---- Findings ----
 
-const signatures = page =>
-    page.$$eval('#findings tr.finding th code', all => all.map(node => node.textContent));
-const said = page => page.textContent('#findings .said');
+const ready = page => page.waitForSelector('#findings > .scroll > table:not([aria-busy])');
+const signatures = async page => {
+  await ready(page);
+  return page.$$eval('#findings tr.finding th code', all => all.map(node => node.textContent));
+};
+const said = async page => {
+  await ready(page);
+  return page.textContent('#findings .said');
+};
 
 test('findings stand in the order of interest, and sort by every column with the keyboard', async () => {
   await inFindings('small', async page => {

@@ -3,7 +3,7 @@
 
 report_page_test.py PATH_TO_STICTION [SOURCES]
 
-The bundle is compared by viewer_test.py. What needs npm's packages is SKIPPED, with its reason, where npm reaches no
+What needs npm's packages is SKIPPED, with its reason, where npm reaches no
 registry.
 """
 

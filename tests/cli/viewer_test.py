@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The replay viewer: its bundle is what its sources give, and, at night, a browser shows what the program found.
+"""The pages are joined of modules that keep to themselves, and, at night, a browser shows what the program found.
 
 viewer_test.py PATH_TO_STICTION [SOURCES]
 
@@ -12,6 +12,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -20,12 +21,15 @@ import cli
 from viewer_data_test import PAGES, arguments
 
 WEB = "reports/web"
+sys.path.insert(0, str(cli.ROOT / WEB))
+import join  # noqa: E402
+
 UNREACHABLE = re.compile(r"ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ENETUNREACH|EHOSTUNREACH|"
                          r"ERR_SOCKET_TIMEOUT|FETCH_ERROR")
 
 
 class Packages:
-    """A copy of the pages' sources with the packages of their lock file."""
+    """A folder with the packages of the pages' lock file."""
 
     folder = None
 
@@ -35,8 +39,8 @@ class Packages:
             if shutil.which("npm") is None:
                 raise AssertionError("expected npm: apt-get install npm")
             cls.folder = Path(tempfile.mkdtemp(prefix="stiction-web-"))
-            shutil.copytree(cli.ROOT / WEB, cls.folder, dirs_exist_ok=True,
-                            ignore=shutil.ignore_patterns("node_modules", "dist"))
+            for name in ("package.json", "package-lock.json", ".npmrc"):
+                shutil.copy(cli.ROOT / WEB / name, cls.folder)
             cls.install()
         return cls.folder
 
@@ -45,7 +49,7 @@ class Packages:
         done = subprocess.run(["npm", "ci", "--ignore-scripts", "--fetch-retries=1", "--fetch-retry-mintimeout=1000",
                                "--fetch-timeout=60000"], cwd=cls.folder, capture_output=True, text=True, timeout=600)
         if done.returncode != 0 and UNREACHABLE.search(done.stderr):
-            print("SKIPPED: the bundle and the browser: npm reaches no registry here")
+            print("SKIPPED: the browser: npm reaches no registry here")
             raise unittest.SkipTest("npm reaches no registry")
         if done.returncode != 0:
             raise AssertionError(f"npm ci: {done.stderr}")
@@ -60,33 +64,59 @@ unittest.addModuleCleanup(Packages.remove)
 
 
 @unittest.skipIf(cli.SHORT, "pages are the same in every build")
-class Bundle(cli.TestCase):
-    def test_the_lock_file_names_versions_and_hashes_and_no_address(self):
-        lock = json.loads((cli.ROOT / WEB / "package-lock.json").read_text())
-        for name, package in lock["packages"].items():
+class Joined(cli.TestCase):
+    def files(self, **texts):
+        for name, text in texts.items():
+            self.file(f"{name}.js", text)
+        return self.folder / "main.js"
+
+    def test_a_module_keeps_to_itself_and_gives_what_it_exports(self):
+        main = self.files(
+            deep="const own = 1;\nexport const shared = own + 1;\nexport function twice(x) {\n  return 2 * x;\n}\n",
+            side="import * as d from './deep.js';\nconst own = 10;\nexport class Side {\n  sum = own + d.shared;\n}\n",
+            vendored="const $a = 5;\nexport {$a as five};\n",
+            main="import {\n  shared,\n  twice as double\n} from './deep.js';\nimport {Side} from './side.js';\n"
+                 "import {five} from './vendored.js';\nconst own = 100;\n"
+                 "console.log(own, shared, double(4), new Side().sum, five);\n")
+        script = join.Joined(main)
+        self.assertEqual([file.stem for file in script.inputs], ["main", "deep", "side", "vendored"])
+        done = subprocess.run(["node", "--input-type=module", "-e", script.text], capture_output=True, text=True)
+        self.assertEqual(done.stdout, "100 2 8 12 5\n", done.stderr)
+
+    def test_what_it_would_join_wrongly_is_refused_with_file_and_line(self):
+        ends = "export const end = 1;\n"
+        for main, other, line in (
+                ("import {end} from './other.js';\n", "import {x} from './main.js';\n" + ends, "other.js:1: found a circle"),
+                ("\nimport {gone} from './other.js';\n", ends, "main.js:2: ./other.js does not export gone"),
+                ("import {end} from './nowhere.js';\n", ends, "main.js:1: found no ./nowhere.js"),
+                ("import {end} from './other.js';\n", "// One.\nexport let end = 1;\n", "other.js:2: expected a form of export"),
+                ("import end from './other.js';\n", ends, "main.js:1: expected a form of import"),
+                ("const page = '</script>';\n", ends, "main.js: found </script")):
+            with self.subTest(line), self.assertRaises(SystemExit) as refused:
+                join.Joined(self.files(main=main, other=other))
+            self.assertTrue(str(refused.exception).startswith(f"{self.folder}/{line}"), refused.exception)
+
+    def test_a_formula_without_its_mathml_is_refused(self):
+        web = self.folder / "web"
+        shutil.copytree(cli.ROOT / WEB, web, ignore=shutil.ignore_patterns("node_modules"))
+        self.assertIn("<msub><mi>f</mi><mi>N</mi></msub>", join.page("viewer", web)[0])
+        page = web / "src/viewer.html"
+        page.write_text(page.read_text() + "\\(e^x\\)")
+        with self.assertRaises(SystemExit) as refused:
+            join.page("viewer", web)
+        self.assertIn(r"formulas.json has no MathML of \(e^x\)", str(refused.exception))
+
+    def test_the_packages_are_those_of_the_lock_file_which_names_no_address(self):
+        lock = json.loads((cli.ROOT / WEB / "package-lock.json").read_text())["packages"]
+        for name, package in lock.items():
             self.assertNotIn("resolved", package, name)
             self.assertTrue(name == "" or package["integrity"].startswith("sha512-"), name)
-        for name, version in lock["packages"][""]["devDependencies"].items():
+        for name, version in (lock[""]["dependencies"] | lock[""]["devDependencies"]).items():
             self.assertRegex(version, r"^\d+\.\d+\.\d+$", name)
-
-    def test_the_sources_give_the_committed_page_to_the_byte(self):
-        web, out = Packages.get(), self.folder / "dist"
-        done = subprocess.run(["node", "build.mjs", out], cwd=web, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        committed = cli.ROOT / WEB / "dist"
-        self.assertEqual(sorted(file.name for file in out.iterdir()), sorted(file.name for file in committed.iterdir()))
-        for file in out.iterdir():
-            self.assertTrue(file.read_bytes() == (committed / file.name).read_bytes(),
-                            f"{file.name}: expected what npm ci and npm run build give in {WEB}")
-
-    def test_what_is_bundled_is_named_with_its_licence(self):
-        code = ("import {notices} from './build.mjs';"
-                "console.log(JSON.stringify(notices(['src/dom.js', 'node_modules/katex/dist/katex.mjs'])));")
-        done = subprocess.run(["node", "--input-type=module", "-e", code], cwd=Packages.get(), capture_output=True,
-                              text=True, timeout=60)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        notice, = json.loads(done.stdout)
-        self.assertRegex(notice, r"^katex \d+\.\d+\.\d+\n\nThe MIT License")
+        held = re.findall(r"^(\S+) (\d+\.\d+\.\d+)\n\n", (cli.ROOT / WEB / "vendor/plot.LICENSES.txt").read_text(), re.M)
+        self.assertIn("@observablehq/plot", dict(held))
+        for name, version in held:
+            self.assertEqual(version, lock[f"node_modules/{name}"]["version"], f"{name}: ./vendor.sh makes it anew")
 
 
 @unittest.skipUnless(cli.ALL, "long")

@@ -61,9 +61,9 @@ def is_measured(name):
 
 
 def files():
-    """Of the product, as Git has them."""
+    """Of the product, as Git has them; what vendor/ has is the code of others."""
     for name in git("ls-files", *PRODUCT).splitlines():
-        if name.endswith(CODE) and not name.startswith("bench/peers/") and "/dist/" not in name:
+        if name.endswith(CODE) and not name.startswith("bench/peers/") and "/vendor/" not in name:
             yield name
 
 

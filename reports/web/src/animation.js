@@ -10,7 +10,7 @@ import {button, copyLink, icons} from './player.js';
 const kNumbered = 12;   // contacts of a frame that have a number each; of more only the one that is chosen
 const kLongest = 0.25;  // arrow, of the picture's height
 
-const data = JSON.parse(byId('data').textContent), frames = framesOf(data), last = frames.length - 1;
+const data = JSON.parse(byId('data').textContent), frames = await framesOf(data), last = frames.length - 1;
 
 const shown = {
   frame: 0,

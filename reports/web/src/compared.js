@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The figures of two campaigns. Their tables hold the cells of the CSV files, as text.
-import {dot, ruleX, ruleY} from '@observablehq/plot';
+import {dot, ruleX, ruleY} from '../vendor/plot.js';
 
 import * as p from './plots.js';
 

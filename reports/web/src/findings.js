@@ -5,7 +5,7 @@ import {unpacked} from './packed.js';
 import {nameSetup, watchTables} from './page.js';
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const lines = () => unpacked(document.getElementById('lines').textContent).split('\n');
+const lines = async () => (await unpacked(document.getElementById('lines').textContent)).split('\n');
 
 showGallery(data, lines);
 nameSetup();

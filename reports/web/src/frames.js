@@ -8,7 +8,7 @@ const kDigits = 7;                 // that a packed number has
 // Of each frame the forces that bear on contacts.
 class ForceReader {
   constructor(bytes, contacts) {
-    Object.assign(this, {view: new DataView(bytes.buffer, bytes.byteOffset), at: 0, contacts, before: []});
+    Object.assign(this, {view: new DataView(bytes), at: 0, contacts, before: []});
   }
 
   word() {
@@ -55,10 +55,10 @@ function transformsOf(poses, scale) {
 }
 
 // Frames with `transforms`, and `forces` as {bodies, kind, mu, at, along, f}, where the bodies touch, too.
-export function framesOf({frames, forces: packed, contacts, scale}) {
-  const reader = new ForceReader(unpackedBytes(packed), contacts);
+export async function framesOf({frames, forces: packed, contacts, scale}) {
+  const reader = new ForceReader(await unpackedBytes(packed), contacts);
   let elements = [];
-  return JSON.parse(unpacked(frames)).map(({poses, ...frame}) => {
+  return JSON.parse(await unpacked(frames)).map(({poses, ...frame}) => {
     const forces = reader.next();
     elements = elementsOf(frame.placed, elements);
     return {

@@ -105,7 +105,7 @@ function more(finding) {
 
 class Gallery {
   // `count` findings, of which the first are here; `choices`: the values of the fields that are filtered by. `lines()`:
-  // all, a line of JSON each.
+  // a promise of all, a line of JSON each.
   constructor({count, findings, choices}, lines, table) {
     this.count = count;
     this.unpack = lines;
@@ -127,11 +127,14 @@ class Gallery {
   }
 
   at(place) {
-    if (this.read[place] === undefined) {
-      this.lines ??= this.unpack();
-      this.read[place] = {...JSON.parse(this.lines[place]), place};
-    }
-    return this.read[place];
+    return this.read[place] ??= {...JSON.parse(this.lines[place]), place};
+  }
+
+  async readAll() {
+    const table = this.body.parentNode;
+    table.setAttribute('aria-busy', 'true');
+    this.lines ??= await this.unpack();
+    table.removeAttribute('aria-busy');
   }
 
   makeControls({kind, smallest, generator, policy, state, change = []}) {
@@ -194,15 +197,20 @@ class Gallery {
     this.filter();
   }
 
-  filter() {
+  async filter() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const wanted =
         this.choices.filter(([, node]) => node.value !== '').map(([name, node]) => [name, node.value]);
+    const asks = words.length + wanted.length > 0;
+    if (this.lines === undefined && (asks || this.sorted !== null)) {
+      await this.readAll();
+      return this.filter();  // by what is chosen now
+    }
     const fits = finding => words.every(word => (finding.text ??= textOf(finding)).includes(word)) &&
         wanted.every(
             ([name, value]) => value === 'changed' ? finding.change !== '' : String(finding[name]) === value);
     this.shown = Array.from({length: this.count}, (_, place) => place);
-    if (words.length + wanted.length > 0) this.shown = this.shown.filter(place => fits(this.at(place)));
+    if (asks) this.shown = this.shown.filter(place => fits(this.at(place)));
     if (this.sorted !== null) {
       const {by} = columns[this.sorted], sign = this.down ? -1 : 1;
       const keys = new Map(this.shown.map(place => [place, by(this.at(place))]));
@@ -215,7 +223,8 @@ class Gallery {
     this.show();
   }
 
-  turn(step) {
+  async turn(step) {
+    await this.readAll();
     this.first = Math.max(0, Math.min(this.first + step, this.shown.length - 1));
     this.show();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes and text that the program has packed (../../html/packed.h).
-import {strFromU8, unzlibSync} from 'fflate';
-
-export const unpackedBytes = text => unzlibSync(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)));
-export const unpacked = text => strFromU8(unpackedBytes(text));
+// Bytes and text that are packed, in base64: by the program (../../html/packed.h), and the solver as gzip.
+export function unpackedBytes(text, format = 'deflate') {
+  const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream(format))).arrayBuffer();
+}
+export const unpacked = async text => new TextDecoder().decode(await unpackedBytes(text));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the figures of a report are made of. Colours are those of the style sheet, so that they follow it into
 // the dark and onto paper.
-import {axisX, axisY, dot, gridX, gridY, plot, ruleX, ruleY} from '@observablehq/plot';
+import {axisX, axisY, dot, gridX, gridY, plot, ruleX, ruleY} from '../vendor/plot.js';
 
 import {element} from './dom.js';
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures of exact rates: a small plot for each generator, on a logarithmic scale that all of them share.
 // Colour and symbol are the number of contacts, where that is not the axis itself.
-import {dot, ruleX} from '@observablehq/plot';
+import {dot, ruleX} from '../vendor/plot.js';
 
 import {element} from './dom.js';
 import * as p from './plots.js';

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The solver in a thread of its own. The first message is the module, compressed, in base64; each other one a
 // request.
+import {unpackedBytes} from './packed.js';
 import {Solver} from './solver.js';
-
-async function unpacked(base64) {
-  const bytes = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
-  const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(plain).arrayBuffer();
-}
 
 let solver = null;  // a promise of it
 self.onmessage = async ({data}) => {
   if (solver === null) {
-    solver = unpacked(data).then(bytes => Solver.from(bytes));
+    solver = unpackedBytes(data, 'gzip').then(bytes => Solver.from(bytes));
     solver.catch(() => {});  // told with the first request
     return;
   }
