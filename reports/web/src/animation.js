@@ -2,10 +2,10 @@
 // A scene that moves. The address says what is shown: #frame=12, counted from 0.
 import {Chart} from './charts.js';
 import {Cones, forceArrow} from './cones.js';
-import {byId, element, icon, svgElement} from './dom.js';
+import {byId, element, svgElement} from './dom.js';
 import {framesOf} from './frames.js';
 import {short} from './numbers.js';
-import {button, copyLink, icons} from './player.js';
+import {button, copyLink, icons, save, setAddress, showPlaying, watchKeys} from './player.js';
 
 const kNumbered = 12;   // contacts of a frame that have a number each; of more only the one that is chosen
 const kLongest = 0.25;  // arrow, of the picture's height
@@ -226,18 +226,12 @@ const remarks = {
       ['The problems of frames before this one fill what a page holds, 200 kB. ', command(), ' writes all.'],
 };
 
-function save(text) {
-  const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
-  element('a', {href: url, download: `${JSON.parse(text).name.replace(/[^\w.-]/g, '_')}.json`}).click();
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
-}
-
 function problems({problems: texts, remark}) {
   if (remark !== '') return remarks[remark]();
   if (texts.length === 0) return ['Nothing touches, and nothing is joined: there is no problem.'];
   return texts.map(
       (text, i) => element(
-          'button', {type: 'button', class: 'save', click: () => save(text)},
+          'button', {type: 'button', class: 'save', click: () => save(text, JSON.parse(text).name.replace(/[^\w.-]/g, '_'))},
           texts.length === 1 ? 'Problem of this frame' : `Problem ${i + 1} of ${texts.length} of this frame`));
 }
 
@@ -264,11 +258,7 @@ function draw() {
 function go(frame) {
   shown.frame = Math.max(0, Math.min(last, frame));
   draw();
-  try {
-    if (!isPlaying()) history.replaceState(null, '', `#frame=${shown.frame}`);
-  } catch {
-    // Some browsers allow only so many a second.
-  }
+  if (!isPlaying()) setAddress(`#frame=${shown.frame}`);
 }
 
 // The last frame up to a time.
@@ -292,8 +282,7 @@ function play(on) {
   shown.began = null;
   if (on && shown.frame === last) go(0);
   if (on) shown.request = requestAnimationFrame(tick);
-  controls.play.replaceChildren(icon(on ? icons.pause : icons.play));
-  controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
+  showPlaying(controls.play, on);
   if (!on) go(shown.frame);
 }
 
@@ -324,26 +313,15 @@ const controls = {
   link: copyLink('frame'),
 };
 const keys = {
-  ArrowRight: controls.next,
-  ArrowLeft: controls.back,
-  Home: controls.first,
-  End: controls.last,
-  c: controls.link,
-  n: {click: () => frames[shown.frame].forces.length > 0 &&
-             choose((chosenOf(frames[shown.frame].forces) + 1) % frames[shown.frame].forces.length)},
+  ' ': () => controls.play.click(),
+  ArrowRight: () => controls.next.click(),
+  ArrowLeft: () => controls.back.click(),
+  Home: () => controls.first.click(),
+  End: () => controls.last.click(),
+  c: () => controls.link.click(),
+  n: () => frames[shown.frame].forces.length > 0 &&
+      choose((chosenOf(frames[shown.frame].forces) + 1) % frames[shown.frame].forces.length),
 };
-
-function onKey(event) {
-  if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
-  if (event.target.closest?.('select')) return;
-  if (event.key === ' ' && !event.target.closest?.('button, a'))
-    controls.play.click();
-  else if (keys[event.key] !== undefined)
-    keys[event.key].click();
-  else
-    return;
-  event.preventDefault();
-}
 
 function followAddress() {
   const found = location.hash.match(/^#frame=(\d{1,9})$/);
@@ -355,7 +333,7 @@ byId('name').textContent = data.name;
 byId('picture').prepend(element('div', {class: 'drawing'}, svg));
 controls.play.disabled = last === 0;
 byId('player').append(...Object.values(controls));
-document.addEventListener('keydown', onKey);
+watchKeys(keys, 'select');
 addEventListener('hashchange', followAddress);
 let before = 0;
 addEventListener('beforeprint', () => {  // the first frame

@@ -3,6 +3,7 @@
 import {element} from './dom.js';
 import {Draft, fileOf, hasMu, kKinds} from './draft.js';
 import {kPatience, Live} from './live.js';
+import {save} from './player.js';
 
 const kMostRows = {  // of A that are set as fields; in space, of which the solver takes no more
   2: 24,
@@ -293,11 +294,7 @@ export class Editor {
   }
 
   save() {
-    const url = URL.createObjectURL(new Blob([this.file()], {type: 'application/json'}));
-    element('a', {
-      href: url,
-      download: `${this.isOriginal ? this.original.name : `${this.original.name}-edited`}.json`
-    }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 1000);
+    const file = this.file();
+    save(file, JSON.parse(file).name);
   }
 }

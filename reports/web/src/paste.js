@@ -7,6 +7,7 @@ import {hypotheses} from './hypotheses.js';
 import {Live} from './live.js';
 import {isZero, number} from './numbers.js';
 import {fileOfPasted, isWhole} from './pasted.js';
+import {setAddress} from './player.js';
 
 const kExamples = {
   'a loop': {A: '3 -4  2  0\n-4  7 -4  1\n2 -4  7 -6\n0  1 -6  7', b: '-1 0 0 -2', mu: '1'},
@@ -128,11 +129,7 @@ function solution(draft, runs) {
 function links(draft) {
   const letters = encoded(draft.problem(), 'paper'), [page, most] = kViewers[draft.dimension];
   if (letters === '') return element('p', {class: 'note'}, 'It is too long for an address.');
-  try {
-    history.replaceState(null, '', `#problem=${letters}`);
-  } catch {
-    // Some browsers allow only so many a second.
-  }
+  setAddress(`#problem=${letters}`);
   const here = element('a', {href: `#problem=${letters}`}, 'A link that contains this problem');
   const steps = draft.b.length > most ?
       null :

@@ -2,9 +2,9 @@
 // A loop that plays inside a report: its numbers, cones, steps and words. The player has a page of its own
 // (viewer.js), where it stands beside complete driving and can be edited.
 import {Cones} from './cones.js';
-import {element, icon} from './dom.js';
+import {element} from './dom.js';
 import {loopOf} from './names.js';
-import {button, icons} from './player.js';
+import {button, icons, showPlaying} from './player.js';
 import {Run} from './run.js';
 import {tellStep} from './steps.js';
 import {Timeline} from './timeline.js';
@@ -34,8 +34,7 @@ export function showPlay(data, node) {
   const play = on => {
     if (timer !== null) clearInterval(timer);
     timer = on ? setInterval(() => moment >= run.last && !run.isLoop ? play(false) : go(moment + 1), kTick) : null;
-    controls.play.replaceChildren(icon(on ? icons.pause : icons.play));
-    controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
+    showPlaying(controls.play, on);
   };
   const stop = to => {
     play(false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The buttons of a player, and what its keys do.
+// What pages do with their buttons, keys, address and files.
 import {element, icon} from './dom.js';
 
 export const icons = {
@@ -31,6 +31,36 @@ export function copyLink(what) {
 
 // All digits of all numbers, and again four.
 export const showAllDigits = () => document.documentElement.classList.toggle('all-digits');
+
+export function showPlaying(node, on) {
+  node.replaceChildren(icon(on ? icons.pause : icons.play));
+  node.setAttribute('aria-label', on ? 'Pause' : 'Play');
+}
+
+// `keys`: what each does, but where the focus is on one of `others`; the space bar presses what can be pressed.
+export function watchKeys(keys, others) {
+  document.addEventListener('keydown', event => {
+    const {key, target} = event, passes = key === ' ' ? `${others}, button, a, summary` : others;
+    if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
+    if (keys[key] === undefined || target.closest?.(passes)) return;
+    keys[key]();
+    event.preventDefault();
+  });
+}
+
+export function setAddress(hash) {
+  try {
+    history.replaceState(null, '', hash);
+  } catch {
+    // Some browsers allow only so many a second.
+  }
+}
+
+export function save(text, name) {
+  const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
+  element('a', {href: url, download: `${name}.json`}).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
 
 export const button = (shape, label, click, title = label) =>
     element('button', {type: 'button', 'aria-label': label, title, click}, icon(shape));

@@ -2,12 +2,12 @@
 // The replay viewer. The address says what is shown: #step-5, and #step-5,3 where the second run was moved by
 // itself; #step-5;problem=... of a problem that was edited (draft.js).
 import {Cones} from './cones.js';
-import {byId, element, icon} from './dom.js';
+import {byId, element} from './dom.js';
 import {decoded, Draft, encoded} from './draft.js';
 import {Editor} from './editor.js';
 import {Picture} from './picture.js';
 import {loopOf, nameOfRun} from './names.js';
-import {button, copyLink, icons, showAllDigits} from './player.js';
+import {button, copyLink, icons, setAddress, showAllDigits, showPlaying, watchKeys} from './player.js';
 import {Run, whereTheyPart} from './run.js';
 import {tellReadings, tellStep} from './steps.js';
 import {Timeline} from './timeline.js';
@@ -80,11 +80,7 @@ function go(moment, second = null) {
   shown.moment = clamp(moment);
   shown.second = second;
   draw();
-  try {
-    history.replaceState(null, '', address());
-  } catch {
-    // Some browsers allow only so many a second.
-  }
+  setAddress(address());
 }
 
 // ---- The player ------------------------------------------------------------------------------
@@ -99,8 +95,7 @@ function play(on) {
     else
       go(shown.moment + 1);
   }, kTick) : null;
-  controls.play.replaceChildren(icon(on ? icons.pause : icons.play));
-  controls.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
+  showPlaying(controls.play, on);
 }
 
 const stop = handler => () => {
@@ -125,26 +120,14 @@ const controls = {
 };
 
 const keys = {
-  ArrowRight: () => go(shown.moment + 1),
-  ArrowLeft: () => go(shown.moment - 1),
-  Home: () => go(0),
-  End: () => go(runs[0].last),
-  e: showAllDigits,
-  c: () => controls.link.click(),
+  ' ': () => play(!isPlaying()),
+  ArrowRight: stop(() => go(shown.moment + 1)),
+  ArrowLeft: stop(() => go(shown.moment - 1)),
+  Home: stop(() => go(0)),
+  End: stop(() => go(runs[0].last)),
+  e: stop(showAllDigits),
+  c: stop(() => controls.link.click()),
 };
-
-function onKey(event) {
-  if (event.target.closest?.('#edit input, #edit select')) return;
-  if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
-  const pressable = event.target.closest?.('button, a, summary');
-  if (event.key === ' ' && !pressable)
-    play(!isPlaying());
-  else if (keys[event.key] !== undefined)
-    stop(keys[event.key])();
-  else
-    return;
-  event.preventDefault();
-}
 
 // A finger that is drawn sideways over what does not itself scroll sideways.
 function watchSwipes(node) {
@@ -284,7 +267,7 @@ function build() {
   byId('player').append(
       controls.first, controls.back, controls.play, controls.next, controls.last, controls.slider,
       controls.place, controls.link);
-  document.addEventListener('keydown', onKey);
+  watchKeys(keys, '#edit input, #edit select');
   addEventListener('hashchange', followAddress);
   watchSwipes(document.querySelector('main'));
 }
