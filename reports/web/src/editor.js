@@ -19,9 +19,9 @@ function obstacleOf({problem: {dimension}, rows}) {
 }
 
 // What the numbers of a run are, in words.
-const kNumbers =
+const wordsOf = commit =>
     'Numbers are taken exactly: integers, fractions as -3/4, decimals as 2.5e-3. The program\'s own solver runs ' +
-    'in this page, and nothing leaves it. ';
+    `in this page, and nothing leaves it. It is of commit ${commit}; the program may be newer. `;
 const kArithmetic = {
   2: 'It runs over rationals.',
   3: 'In space the forces of the published algorithm are irrational: it runs over rounded numbers, as in the ' +
@@ -84,7 +84,7 @@ export class Editor {
         'details', {toggle: () => this.details.open && this.open()},
         element('summary', {}, 'Change A, b, friction, kinds of contacts, or the policy'),
         element(
-            'p', {class: 'note'}, kNumbers + kArithmetic[original.problem.dimension]),
+            'p', {class: 'note'}, wordsOf(node.dataset.solver) + kArithmetic[original.problem.dimension]),
         this.form);
     node.append(this.details);
     this.take(new Draft(original.problem, replay.policy ?? 'paper'));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `node lines.mjs MODULE`: a request a line, an answer a line, by the WebAssembly module. For the tests.
+// `node live_lines.mjs MODULE`: a request a line, an answer a line, by the WebAssembly module.
 import {readFileSync} from 'node:fs';
 import {gunzipSync} from 'node:zlib';
 
