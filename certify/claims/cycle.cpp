@@ -49,7 +49,7 @@ Json CyclesToJson(const ExactProblem& problem, const std::vector<PolicyEnds>& en
   Json runs = Json::array();
   for (const PolicyEnds& equal : ends) {
     if (equal.outcome != Outcome::kCycle) continue;
-    Json run = RunToJson(RunExact(problem, {equal.policies.front(), {}, limits}), names);
+    Json run = RunToJson(RunExact(problem, {.policy = equal.policies.front(), .limits = limits}), names);
     Json named = Json::array();
     for (const Policy& policy : equal.policies) named.push_back(PolicyName(policy));
     const auto same = std::find_if(runs.begin(), runs.end(), [&run](const Json& other) {
@@ -203,7 +203,7 @@ ExactRun RunAsStated(const ExactProblem& problem, const Policy& policy, const Js
   for (std::int64_t most = 64;; most *= 16) {
     Limits limits;
     limits.pivots = std::min(most, stated + 1);
-    ExactRun run = RunExact(problem, {policy, {}, limits});
+    ExactRun run = RunExact(problem, {.policy = policy, .limits = limits});
     CompareSteps(run, pivots, path, names);
     if (run.verdict.outcome != Outcome::kLimit || limits.pivots > stated) return run;
   }

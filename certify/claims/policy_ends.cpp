@@ -33,7 +33,7 @@ std::vector<PolicyEnds> EndsInSpace(const std::vector<Policy>& policies, const E
       ends.push_back(PolicyEnds{{policy}, Outcome::kUndecided, "this policy is not built in space"});
       continue;
     }
-    const InexactAnswer answer = RunIntervalsInSpace(problem, {policy, {}, limits});
+    const InexactAnswer answer = RunIntervalsInSpace(problem, {.policy = policy, .limits = limits});
     ends.push_back(PolicyEnds{{policy},
                               answer.outcome,
                               std::string(answer.reason),

@@ -191,7 +191,7 @@ Answer<Rational> SolveOnPolygons(const ExactProblem& problem, const Request& req
       answer.ray = std::move(run.answer.ray);
       break;
     }
-    if (toward(run, answer) || refinements == kRefinements) break;
+    if (toward(run, answer) || refinements == kMostRefinements) break;
     polygons = std::move(run.polygons);
   }
   answer.counters.Tell(Counter::kRefinements) = refinements;

@@ -32,7 +32,7 @@ OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, cons
                     Trace<Rational>* trace = nullptr);
 
 enum class SpaceEngine { kComplete, kLemke };
-inline constexpr int kRefinements = 20;  // runs with more corners, at most
+inline constexpr int kMostRefinements = 20;  // runs with more corners, at most
 
 // One step from a solution on polygons toward the law: whether it is the last. Otherwise the polygons have more
 // corners after it. What the law accepts stands in the answer.

@@ -12,7 +12,7 @@ std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Re
                                            Outcome outcome) {
   const bool in_space = problem.dimension == 3 && request.method == "baraff";
   if (!in_space || !PublishedReadsInSpace(request.policy) || outcome == Outcome::kSolved) return std::nullopt;
-  return RunIntervalsInSpace(problem, {request.policy, {}, request.limits});
+  return RunIntervalsInSpace(problem, {.policy = request.policy, .limits = request.limits});
 }
 
 std::string OverIntervalsText(const InexactAnswer& answer) {

@@ -43,7 +43,7 @@ std::vector<Parting> PartingsOf(const ExactProblem& problem, const Policy& polic
       if (value == row.get(policy)) continue;
       Policy other = policy;
       row.set(other, value);
-      const ExactRun run = RunExact(problem, {other, {}, enough});
+      const ExactRun run = RunExact(problem, {.policy = other, .limits = enough});
       const auto step = FirstDifference(pivots, run.trace.pivots);
       if (step) partings.push_back({*step, &row, value, run.verdict.outcome});
     }

@@ -274,7 +274,7 @@ Json RunExactly(const ExactProblem& problem, const std::vector<std::vector<int>>
 // The published algorithm as it stands, under the policy `paper`: does it loop?
 Json RunPublished(const ExactProblem& problem, const Limits& limits) {
   const Stopwatch watch(CLOCK_MONOTONIC);
-  const ExactRun published = RunExact(problem, {Policy{}, {}, limits});
+  const ExactRun published = RunExact(problem, {.limits = limits});
   Json run = {{"method", "baraff"}, {"arithmetic", "exact"}, {"outcome", Name(published.verdict.outcome)}};
   run["seconds"] = watch.Seconds();
   run["pivots"] = published.verdict.statistics.pivots;

@@ -117,7 +117,7 @@ Value NumberOfSolutions(ExactTrial& trial) {
 
 Value Radius(ExactTrial& trial) {
   if (!trial.Loops()) return std::nullopt;
-  const auto radius = RadiusOfLoop(trial.problem(), {trial.policy(), {}, trial.limits()});
+  const auto radius = RadiusOfLoop(trial.problem(), {.policy = trial.policy(), .limits = trial.limits()});
   return radius ? Value(ToDouble(*radius)) : Value();
 }
 
@@ -202,11 +202,11 @@ std::span<const Objective> Objectives() {
            "starts"},
           [](ExactTrial& t) { return StartsOfIpopt(t); }),
       OfRuns({"folds", "folds of complete driving", "folds"},
-             [](auto& t) { return static_cast<double>(t.Complete().statistics.folds); }),
+             [](auto& t) { return static_cast<double>(t.Complete().statistics[Counter::kFolds]); }),
       OfRuns({"descents", "descents of complete driving", "descents"},
-             [](auto& t) { return static_cast<double>(t.Complete().statistics.descents); }),
+             [](auto& t) { return static_cast<double>(t.Complete().statistics[Counter::kDescents]); }),
       OfRuns({"pieces", "linear pieces of complete driving", "pieces"},
-             [](auto& t) { return static_cast<double>(t.Complete().statistics.pieces); }),
+             [](auto& t) { return static_cast<double>(t.Complete().statistics[Counter::kPieces]); }),
       Exactly({"solutions", "different solutions among all contact modes, up to four contacts", "solutions"},
               [](ExactTrial& t) { return NumberOfSolutions(t); }),
       [] {

@@ -163,7 +163,7 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
   std::int64_t index = 0;
   for (const Assessed& assessed : optimized.loops) {
     const ExactProblem problem = ExactOf(assessed.candidate);
-    const ExactRun run = RunExact(problem, {campaign.policies.front(), {}, campaign.limits});
+    const ExactRun run = RunExact(problem, {.policy = campaign.policies.front(), .limits = campaign.limits});
     std::string signature = Signature(problem, run);
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
     const bool first = ++result.record.signatures[signature] == 1;

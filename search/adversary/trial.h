@@ -46,14 +46,14 @@ class Trial {
   bool Loops() { return IsLoop(Published().outcome); }
   bool Solves() { return Published().outcome == Outcome::kSolved; }
 
-  const CompleteVerdict& Complete() {
-    if (!complete_) complete_ = CompleteDriving<Scalar>({{}, limits_}).Run(problem_);
+  const RunEnd<>& Complete() {
+    if (!complete_) complete_ = CompleteDriving<Scalar>({.limits = limits_}).Run(problem_);
     return *complete_;
   }
 
  private:
   void Run(Trace<Scalar>* trace) {
-    PublishedAlgorithm<Scalar> algorithm({policy_, {}, limits_});
+    PublishedAlgorithm<Scalar> algorithm({.policy = policy_, .limits = limits_});
     published_ = algorithm.Run(problem_, trace);
     f_ = algorithm.state().f;
   }
@@ -64,7 +64,7 @@ class Trial {
   std::optional<Verdict> published_;
   Vector f_;
   std::optional<Trace<Scalar>> trace_;
-  std::optional<CompleteVerdict> complete_;
+  std::optional<RunEnd<>> complete_;
 };
 
 using InexactTrial = Trial<double>;

@@ -19,7 +19,7 @@
 #include "search/generators/generators.h"
 #include "search/lanes/block.h"
 #include "search/lanes/instructions.h"
-#include "solver/problem/request.h"
+#include "solver/problem/options.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {

@@ -74,16 +74,16 @@ Regenerated Examiner::DrawAgain(std::int64_t index) {
 
 InexactAnswer Examiner::RunInSpace(const ExactProblem& problem, std::size_t policy) {
   const Spending spending(collector_.meter(), &ProcessorTime::exact);
-  return methods_.published_in_space(problem, OptionsOf(policy));
+  return methods_.published_in_space(problem, RequestOf(policy));
 }
 
 ExactRun Examiner::RunExactly(const ExactProblem& problem, std::size_t policy) {
   const Spending spending(collector_.meter(), &ProcessorTime::exact);
-  return methods_.published(problem, OptionsOf(policy));
+  return methods_.published(problem, RequestOf(policy));
 }
 
-Request Examiner::OptionsOf(std::size_t policy) const {
-  return {campaign_.policies[policy], {}, campaign_.limits};
+Request Examiner::RequestOf(std::size_t policy) const {
+  return {.policy = campaign_.policies[policy], .limits = campaign_.limits};
 }
 
 std::uint64_t Examiner::DrawOf(std::int64_t index) const {
@@ -98,7 +98,7 @@ bool Examiner::IsDrawn(std::uint64_t draw) const {
 
 OnRung Examiner::Filter(const ExactProblem& problem, std::size_t policy, const Rungs& rungs) {
   const Spending spending(collector_.meter(), &ProcessorTime::filtered);
-  const OnRung filtered = methods_.filtered(problem, OptionsOf(policy), rungs);
+  const OnRung filtered = methods_.filtered(problem, RequestOf(policy), rungs);
   const Rung rung = IsUnsure(filtered.verdict) ? Rung::kExact : filtered.rung;
   if (campaign_.arithmetic != Arithmetic::kExact) ++collector_.tally(policy).rungs[static_cast<int>(rung)];
   return filtered;
@@ -228,7 +228,7 @@ void Examiner::CheckSafety(const Place& place, const ExactRun& published, const 
   ++tally.safe;
   Policy policy = published.policy;
   policy.apex = Apex::kSuspended;
-  const ExactRun run = methods_.published(problem, {policy, {}, campaign_.limits});
+  const ExactRun run = methods_.published(problem, {.policy = policy, .limits = campaign_.limits});
   if (run.verdict.statistics.give_ups == 0) return;
   ++tally.safe_gave_up;
   if (HasTies(problem, run)) return;

@@ -34,7 +34,7 @@ class Examiner {
   Regenerated DrawAgain(std::int64_t index);
   InexactAnswer RunInSpace(const ExactProblem& problem, std::size_t policy);
   ExactRun RunExactly(const ExactProblem& problem, std::size_t policy);
-  Request OptionsOf(std::size_t policy) const;
+  Request RequestOf(std::size_t policy) const;
   // What a problem is drawn by for the methods that run on a few only.
   std::uint64_t DrawOf(std::int64_t index) const;
   bool IsDrawn(std::uint64_t draw) const;

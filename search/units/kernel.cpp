@@ -173,11 +173,11 @@ template <int Rows>
 class BatchedKernel final : public PlanarKernel<Rows> {
  public:
   BatchedKernel(const Campaign& campaign, const UnitSolvers& solvers)
-      : PlanarKernel<Rows>(campaign, solvers), batch_(solvers.lanes, OptionsOf(campaign)) {}
+      : PlanarKernel<Rows>(campaign, solvers), batch_(solvers.lanes, RequestOf(campaign)) {}
 
   static bool Handles(const Campaign& campaign, const UnitSolvers& solvers) {
     return solvers.lanes != InstructionSet::kNone && !solvers.distort && campaign.policies.size() == 1 &&
-           IsBatched(OptionsOf(campaign));
+           IsBatched(RequestOf(campaign));
   }
 
   void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
@@ -205,8 +205,8 @@ class BatchedKernel final : public PlanarKernel<Rows> {
  private:
   using PlanarKernel<Rows>::campaign_, PlanarKernel<Rows>::problem_, PlanarKernel<Rows>::drawn_;
 
-  static Request OptionsOf(const Campaign& campaign) {
-    return {campaign.policies.front(), {}, campaign.limits};
+  static Request RequestOf(const Campaign& campaign) {
+    return {.policy = campaign.policies.front(), .limits = campaign.limits};
   }
 
   void DrawBlock(std::int64_t unit, const Task& task, std::int64_t first, int count, Collector& collector) {

@@ -135,7 +135,7 @@ class Minimizer {
     if (!IsInRange(candidate)) return "b is not in range(A)";
     const Policy& first = options_.policies.front();
     if (candidate.dimension == 3) return LacksInSpace(candidate);
-    const ExactRun run = RunExact(candidate, {first, {}, options_.limits});
+    const ExactRun run = RunExact(candidate, {.policy = first, .limits = options_.limits});
     if (run.verdict.outcome != options_.keep) {
       return EndsElsewhere(first, run.verdict.outcome);
     }
@@ -150,7 +150,7 @@ class Minimizer {
 
   std::optional<std::string> LacksInSpace(const ExactProblem& candidate) const {
     for (const Policy& policy : options_.policies) {
-      const InexactAnswer answer = RunIntervalsInSpace(candidate, {policy, {}, options_.limits});
+      const InexactAnswer answer = RunIntervalsInSpace(candidate, {.policy = policy, .limits = options_.limits});
       if (answer.outcome != options_.keep) return EndsElsewhere(policy, answer.outcome);
       if (options_.period && answer.period != *options_.period) return "it has another period";
     }

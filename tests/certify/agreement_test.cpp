@@ -19,7 +19,7 @@ const Limits kLimits = {1000, 10000, 100000};
 
 // What the methods really say.
 Answers AnswersOf(const ExactProblem& problem) {
-  const ExactRun published = RunExact(problem, {Policy{}, {}, kLimits});
+  const ExactRun published = RunExact(problem, {.limits = kLimits});
   return {{AnswerBy("baraff", published.verdict.outcome, published.state.f), RunComplete(problem, kLimits),
            RunLemke(problem, kLimits)},
           EnumerateModes(problem)};
@@ -158,14 +158,14 @@ TEST_CASE("agreement: solutions are counted with their signs") {
 
 TEST_CASE("agreement: ties are told from steps of length zero") {
   // The period of the reference problem has steps of length zero, at folds, and no tie.
-  const ExactRun cycle = RunExact(ReferenceProblem(), {Policy{}, {}, kLimits});
+  const ExactRun cycle = RunExact(ReferenceProblem(), {.limits = kLimits});
   REQUIRE(cycle.verdict.statistics.zero_steps > 0);
   CHECK_FALSE(HasTies(ReferenceProblem(), cycle));
 
   // Two equal contacts, driven one after the other; the second is satisfied with the first, to the bit.
   const ExactProblem twins = MakeProblem({1, 1}, {{1, 0, 1, 0}, {0, 1, 0, 1}, {1, 0, 1, 0}, {0, 1, 0, 1}},
                                          {-1, Rational(1, 2), -1, Rational(1, 2)});
-  CHECK(HasTies(twins, RunExact(twins, {Policy{}, {}, kLimits})));
+  CHECK(HasTies(twins, RunExact(twins, {.limits = kLimits})));
 }
 
 }  // namespace

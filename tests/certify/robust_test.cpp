@@ -108,9 +108,9 @@ TEST_CASE("robust: a loop beside another keeps its radius or a part of it") {
   two.b.resize(2 * rows);
   two.b << one.b, one.b;
   // The first copy loops before the second is looked at.
-  const auto radius = RadiusOfLoop(two, {{}, {}, kLimits});
+  const auto radius = RadiusOfLoop(two, {.limits = kLimits});
   CHECK(radius.value_or(0) > 0);
-  CHECK(radius.value_or(1) <= RadiusOfLoop(one, {{}, {}, kLimits}).value_or(0));
+  CHECK(radius.value_or(1) <= RadiusOfLoop(one, {.limits = kLimits}).value_or(0));
 }
 
 // ---- Scenes --------------------------------------------------------------------------------------

@@ -126,7 +126,7 @@ TEST_CASE("adversary: objectives have names of their own, and say what they are"
 
 TEST_CASE("adversary: the values of a known loop and of a known solution") {
   const ExactProblem loop = ReferenceProblem();
-  const ExactRun run = RunExact(loop, {{}, {}, Campaign().limits});
+  const ExactRun run = RunExact(loop, {.limits = Campaign().limits});
   REQUIRE(run.verdict.outcome == Outcome::kCycle);
   CHECK(Exactly("period", loop) == static_cast<double>(run.verdict.period));
   CHECK(Exactly("start", loop) == static_cast<double>(run.verdict.start));
@@ -137,7 +137,7 @@ TEST_CASE("adversary: the values of a known loop and of a known solution") {
   const double margin = Exactly("margin", loop);
   CHECK((margin > 0 && margin < 1));
   const ExactProblem solved = testing::GiveUpProblem();
-  const ExactRun solving = RunExact(solved, {{}, {}, Campaign().limits});
+  const ExactRun solving = RunExact(solved, {.limits = Campaign().limits});
   REQUIRE(solving.verdict.outcome == Outcome::kSolved);
   CHECK(Exactly("steps", solved) == static_cast<double>(solving.verdict.statistics.steps));
   CHECK(Exactly("give-ups", solved) == static_cast<double>(solving.verdict.statistics.give_ups));
@@ -153,14 +153,14 @@ TEST_CASE("adversary: the values of a known loop and of a known solution") {
 // One part in a thousand of the margin of every decision: the same loop, whatever entry is moved.
 TEST_CASE("adversary: a loop survives changes that are small beside its margin") {
   const ExactProblem loop = ReferenceProblem();
-  const ExactRun run = RunExact(loop, {{}, {}, Campaign().limits});
+  const ExactRun run = RunExact(loop, {.limits = Campaign().limits});
   const Rational small = Rational(Exactly("margin", loop)) / 10000;
   for (int i = 0; i < loop.rows(); ++i) {
     for (int j = i; j < loop.rows(); ++j) {
       ExactProblem moved = loop;
       moved.A(i, j) += small;
       moved.A(j, i) = moved.A(i, j);
-      const ExactRun again = RunExact(moved, {{}, {}, Campaign().limits});
+      const ExactRun again = RunExact(moved, {.limits = Campaign().limits});
       REQUIRE(again.verdict.outcome == Outcome::kCycle);
       REQUIRE(again.verdict.period == run.verdict.period);
     }
@@ -219,7 +219,7 @@ TEST_CASE("adversary: loops come as near to the bound of the condition number as
     for (int k = 12; k <= 60; k += 8) {
       CAPTURE(ToString(mu), k);
       const ExactProblem problem = NearTheBound(mu, Rational(1) / Rational(mpz_class(1) << k));
-      const ExactRun run = RunExact(problem, {{}, {}, Campaign().limits});
+      const ExactRun run = RunExact(problem, {.limits = Campaign().limits});
       REQUIRE(run.verdict.outcome == Outcome::kCycle);
       CHECK(run.verdict.start == 3);
       CHECK(run.verdict.period == 4);
@@ -254,7 +254,7 @@ ExactProblem OneBody(const Rational& mu) {
 TEST_CASE("adversary: one body loops at low friction") {
   for (const int k : {4, 10, 20, 40}) {
     const ExactRun run =
-        RunExact(OneBody(Rational(1) / Rational(mpz_class(1) << k)), {{}, {}, Campaign().limits});
+        RunExact(OneBody(Rational(1) / Rational(mpz_class(1) << k)), {.limits = Campaign().limits});
     CHECK(run.verdict.outcome == Outcome::kCycle);
     CHECK(run.verdict.start == 2);
     CHECK(run.verdict.period == 5);

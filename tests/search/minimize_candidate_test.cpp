@@ -21,7 +21,7 @@ namespace stiction {
 namespace {
 
 bool Cycles(const ExactProblem& problem) {
-  return RunExact(problem, {{}, {}, Campaign().limits}).verdict.outcome == Outcome::kCycle;
+  return RunExact(problem, {.limits = Campaign().limits}).verdict.outcome == Outcome::kCycle;
 }
 
 bool StillCycles(const Candidate& candidate) { return Cycles(ExactOf(candidate)); }

@@ -242,7 +242,7 @@ TEST_CASE("unit: loops are counted with the zero steps of their periods, and the
   for (const Finding& finding : result.candidates) {
     if (finding.kind != "cycle") continue;
     const ExactProblem problem = Regenerate(campaign, finding.unit, finding.index).problem;
-    const ExactRun run = RunExact(problem, {{}, {}, campaign.limits});
+    const ExactRun run = RunExact(problem, {.limits = campaign.limits});
     const LoopFacts loop = FactsOfLoop(problem, run.verdict, run.trace.pivots);
     std::int64_t zero_steps = 0;
     for (const auto& step : run.trace.pivots) zero_steps += step.drive > run.verdict.start && step.s == 0;

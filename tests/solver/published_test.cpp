@@ -186,10 +186,10 @@ TEMPLATE_TEST_CASE("published: a budget that just suffices changes nothing, one 
 }
 
 TEST_CASE("published: forces with more bits than the budget end in `limit`") {
-  const Verdict verdict = RunExact(ReferenceProblem(), {{}, {}, {.bits = 4}}).verdict;
+  const Verdict verdict = RunExact(ReferenceProblem(), {.limits = {.bits = 4}}).verdict;
   CHECK(verdict.outcome == Outcome::kLimit);
   CHECK(verdict.reason == "bits");
-  CHECK(RunExact(ReferenceProblem(), {{}, {}, {.bits = 64}}).verdict.outcome == Outcome::kCycle);
+  CHECK(RunExact(ReferenceProblem(), {.limits = {.bits = 64}}).verdict.outcome == Outcome::kCycle);
 }
 
 // ---- What is no number -----------------------------------------------------------------------
