@@ -45,7 +45,7 @@ SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "se
 DRAWN_FROM = ("solver", "certify", "search", "corpus")
 NOT_DRAWN_FROM = "certify/ipopt/"  # a program that includes nothing of the others
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
-LABELS = ("solver", "certify", "search", "corpus")
+LABELS = ("solver", "certify", "search", "corpus", "model")
 PROGRAMS = ("attacks_test", "certificate_test", "coulomb_exact_test", "existence_test", "false_claims_test",
             "false_loops_in_space_test", "formats_test", "limits_test", "outputs_test", "paths_test", "problem_test",
             "replay_test", "solve_test", "store_test", "under_test_test")
@@ -285,8 +285,8 @@ def run_test(test, number, seconds):
         reached.write(bytes(MOST_MUTANTS))
         reached.flush()
         os.chmod(reached.name, 0o666)
-        environment = {**os.environ, "STICTION_TESTS": "short", **test.environment, "STICTION_MUTANT": str(number),
-                       "TMPDIR": scratch}
+        environment = {**os.environ, "STICTION_TESTS": "short", "STICTION_MODEL": "300", **test.environment,
+                       "STICTION_MUTANT": str(number), "TMPDIR": scratch}
         if number == 0:
             environment["STICTION_REACHED"] = reached.name
         before = time.monotonic()
