@@ -128,7 +128,7 @@ ContactProblem<Scalar, Rows> Random(GeneratorId id, int contacts, std::uint64_t 
 
 // Bodies' worth of degrees of freedom, and contacts of every kind on them: A = J J', b = J c. With repeated
 // bilateral rows, so that A_BB is singular.
-inline ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant = nullptr) {
+inline ExactProblem RandomMixed(std::uint64_t seed, bool sliding) {
   Choices choices(seed);
   ExactProblem problem;
   const int contacts = static_cast<int>(choices.Integer(1, 5));
@@ -153,10 +153,7 @@ inline ExactProblem RandomMixed(std::uint64_t seed, bool sliding, int* redundant
   for (int i = 0; i < contacts; ++i) {
     if (problem.contacts[i].kind != ContactKind::kBilateral) continue;
     const int row = layout.NormalRowOf(i);
-    if (first >= 0 && choices.Integer(0, 2) == 0) {
-      J.row(row) = J.row(first) * Rational(-2);
-      if (redundant != nullptr) ++*redundant;
-    }
+    if (first >= 0 && choices.Integer(0, 2) == 0) J.row(row) = J.row(first) * Rational(-2);
     if (first < 0) first = row;
   }
   problem.A = J * J.transpose();

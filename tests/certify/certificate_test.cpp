@@ -67,27 +67,6 @@ TEST_CASE("certificate: every maker's certificate is accepted") {
   }
 }
 
-TEST_CASE("certificate: those of random problems are accepted") {
-  for (int index = 0; index < 300; ++index) {
-    CAPTURE(index);
-    const auto id = index % 2 == 0 ? GeneratorId::kSmall : GeneratorId::kDuplicates;
-    ExactProblem problem = Random<Rational>(id, 1 + index % 3, index);
-    const ExactRun run = RunExact(problem, {});
-    if (run.verdict.outcome == Outcome::kSolved) {
-      CHECK(CheckCertificate(SolutionCertificate(problem, run.state.f), "c").accepted);
-    }
-    for (const bool broken : {false, true}) {
-      if (broken) {
-        problem.A(0, 1) = problem.A(1, 0) = 3;
-        problem.b[0] += 1;
-      }
-      CHECK(CheckCertificate(SemidefiniteCertificate(problem), "c").accepted);
-      CHECK(CheckCertificate(RangeCertificate(problem), "c").accepted);
-      CHECK(CheckCertificate(SymmetryCertificate(problem), "c").accepted);
-    }
-  }
-}
-
 TEST_CASE("certificate: of the whole grid, each cycling policy is certified once and none else") {
   const Json certificate = CycleCertificate(ReferenceProblem(), PlanarGrid(), {});
   CHECK(CertifiedPolicies(certificate).size() == 1320);

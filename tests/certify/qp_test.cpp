@@ -5,11 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/exact/exact.h"
 #include "certify/exact/neighbour.h"
 #include "certify/exact/qp_ipopt.h"
-#include "certify/exact/verify_solution.h"
-#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -17,8 +14,8 @@ namespace {
 
 using namespace testing;
 
-// A = J J' of the given rank, fractions throughout; b in its range, or anything.
-ExactProblem RandomSingular(int contacts, int rank, bool in_range, std::uint64_t seed) {
+// A = J J' of the given rank, fractions throughout; b in its range.
+ExactProblem RandomSingular(int contacts, int rank, std::uint64_t seed) {
   Choices choices(seed);
   ExactMatrix J(contacts, rank);
   for (Rational& x : J.reshaped()) {
@@ -31,60 +28,7 @@ ExactProblem RandomSingular(int contacts, int rank, bool in_range, std::uint64_t
   ExactVector y(rank);
   for (Rational& x : y) x = choices.Integer(-5, 5);
   problem.b = J * y;
-  for (int i = 0; i < contacts && !in_range; ++i) problem.b[i] = Rational(choices.Integer(-3, 3)) / 7;
   return problem;
-}
-
-TEST_CASE("qp: random definite problems, as complete driving solves them") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const ExactProblem problem = RandomFrictionless(1 + static_cast<int>(seed % 8), seed);
-    const ExactAnswer run = SolveQp(problem);
-    REQUIRE(run.outcome == Outcome::kSolved);
-    CHECK(run.f == RunComplete(problem, {}).f);
-    CHECK(run.a == Accelerations(problem, run.f));
-    CHECK(run.ray.size() == 0);
-  }
-}
-
-TEST_CASE("qp: where A is singular forces are open, accelerations are not") {
-  int other_forces = 0;
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    CAPTURE(seed);
-    const int contacts = 1 + static_cast<int>(seed % 7);
-    const ExactProblem problem = RandomSingular(contacts, 1 + contacts / 2, true, seed);
-    const ExactAnswer run = SolveQp(problem);
-    REQUIRE(run.outcome == Outcome::kSolved);
-    CHECK(!FindViolation(problem, run.f));
-    const ExactAnswer complete = RunComplete(problem, {});
-    REQUIRE(complete.outcome == Outcome::kSolved);
-    CHECK(run.a == complete.a);
-    other_forces += run.f != complete.f;
-  }
-  CHECK(other_forces > 5);
-}
-
-TEST_CASE("qp: b out of range is solved, or the program is unbounded and shows it") {
-  int rays = 0, solved = 0;
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    CAPTURE(seed);
-    const int contacts = 2 + static_cast<int>(seed % 5);
-    const ExactProblem problem = RandomSingular(contacts, contacts / 2, false, seed);
-    const ExactAnswer run = SolveQp(problem);
-    if (run.outcome == Outcome::kSolved) {
-      ++solved;
-      CHECK(!FindViolation(problem, run.f));
-      continue;
-    }
-    REQUIRE(run.outcome == Outcome::kRay);
-    ++rays;
-    CHECK(run.ray.minCoeff() >= 0);
-    CHECK((problem.A * run.ray).isZero(0));
-    CHECK(problem.b.dot(run.ray) < 0);
-    CHECK(run.f.size() == 0);
-    CHECK(RunComplete(problem, {}).outcome == Outcome::kRay);
-  }
-  CHECK(rays > 20);
-  CHECK(solved > 20);
 }
 
 TEST_CASE("qp: what is no program (5) is refused by name") {
@@ -108,7 +52,7 @@ TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure conc
     const bool definite = seed % 2 == 0;
     const int contacts = 1 + static_cast<int>(seed % 5);
     const ExactProblem problem =
-        definite ? RandomFrictionless(contacts, seed) : RandomSingular(contacts, 1 + contacts / 2, true, seed);
+        definite ? RandomFrictionless(contacts, seed) : RandomSingular(contacts, 1 + contacts / 2, seed);
     const Answer<double> run = SolveQpByIpopt(problem, ipopt);
     REQUIRE(run.f.size() == problem.rows());
     const ExactVector f = run.f.unaryExpr([](double x) { return Rational(x); });

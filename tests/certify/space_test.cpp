@@ -100,29 +100,6 @@ TEST_CASE("coulomb bound: rounded down, to eight digits of its distance from one
   CHECK(!CoulombBound(problem, Vector({0, 0, 0})));
 }
 
-TEST_CASE("space: every problem in range is certified, under either law") {
-  int refined = 0, edges = 0;
-  for (int index = 0; index < 150; ++index) {
-    CAPTURE(index);
-    const ExactProblem problem = RandomInSpace(1 + index % 3, index);
-    const ExactAnswer weak = SolveInSpace(problem, {.law = FrictionLaw::kBaraff});
-    REQUIRE(weak.outcome == Outcome::kSolved);
-    CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
-    CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    refined += weak.counters[Counter::kRefinements] > 0;
-    edges += static_cast<int>(std::count(weak.word.begin(), weak.word.end(), 'E'));
-    const ExactAnswer strict = SolveInSpace(problem, {});
-    REQUIRE(strict.outcome == Outcome::kSolved);
-    CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
-    CHECK(*strict.bound >= 1 - Rational(1, 1 << 20));
-    const CheckReport report = CheckCertificate(CoulombCertificate(problem, strict.f, *strict.bound), "here");
-    CHECK(report.reason == "");
-    CHECK(report.facts["bound"] == ToString(*strict.bound));
-  }
-  CHECK(edges > 20);
-  CHECK(refined < 20);
-}
-
 TEST_CASE("space: the polygon alone proves its inner radius") {
   for (int index = 0; index < 60; ++index) {
     CAPTURE(index);
@@ -195,63 +172,6 @@ TEST_CASE("lemke in space: over doubles nearly all answers are right") {
   CHECK(solved >= 80);
 }
 
-TEST_CASE("space: with Lemke's method every problem in range is certified, under either law") {
-  for (int index = 0; index < 90; ++index) {
-    CAPTURE(index);
-    const ExactProblem problem = RandomInSpace(1 + index % 3, index);
-    const ExactAnswer weak = SolveInSpace(problem, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke);
-    REQUIRE(weak.outcome == Outcome::kSolved);
-    CHECK(FindWeakViolation(problem, weak.f).value_or("") == "");
-    CHECK(CheckCertificate(SolutionCertificate(problem, weak.f), "here").accepted);
-    CHECK(weak.counters[Counter::kStages] == 0);  // of complete driving
-    const ExactAnswer strict = SolveInSpace(problem, {}, SpaceEngine::kLemke);
-    REQUIRE(strict.outcome == Outcome::kSolved);
-    CHECK(FindCoulombViolation(problem, strict.f, *strict.bound).value_or("") == "");
-  }
-}
-
-// A = J J', b = J y: contacts of every kind, sliding ones where asked for.
-ExactProblem MixedInSpace(bool sliding, int index) {
-  Choices choices(index);
-  ExactProblem problem;
-  problem.dimension = 3;
-  for (int i = 0; i < 3; ++i) {
-    Contact<Rational> contact;
-    contact.kind = static_cast<ContactKind>(choices.Integer(0, sliding ? 3 : 2));
-    if (contact.HasFrictionRows()) contact.mu = Rational(choices.Integer(0, 3)) / 4;
-    if (contact.kind == ContactKind::kSliding) contact.slip = {Rational(3, 5), Rational(-4, 5)};
-    problem.contacts.push_back(contact);
-  }
-  const int rows = RowCount(problem.contacts, 3);
-  ExactMatrix J(rows, 6);
-  for (Rational& x : J.reshaped()) x = choices.Integer(-5, 5);
-  ExactVector y(6);
-  for (Rational& x : y) x = choices.Integer(-5, 5);
-  problem.A = J * J.transpose();
-  problem.b = J * y;
-  return problem;
-}
-
-TEST_CASE("space: Lemke's method with contacts of every kind") {
-  int slides = 0;
-  for (int index = 0; index < 60; ++index) {
-    CAPTURE(index);
-    const bool sliding = index % 2 == 1;
-    const ExactProblem problem = MixedInSpace(sliding, index);
-    const ExactAnswer solution = SolveInSpace(problem, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke);
-    if (!sliding) REQUIRE(solution.outcome == Outcome::kSolved);
-    if (solution.outcome != Outcome::kSolved) continue;
-    slides += sliding;
-    CHECK(FindWeakViolation(problem, solution.f).value_or("") == "");
-    CHECK(CheckCertificate(SolutionCertificate(problem, solution.f), "here").accepted);
-    const RationalPolygons polygons(3, FrictionPolygon<Rational>(8));
-    const ExactAnswer run = RunLemkeInSpace(problem, polygons, Limits{}).answer;
-    REQUIRE(run.outcome == Outcome::kSolved);
-    CHECK(PolygonErrorOf(problem, polygons, run.f, run.a) == 0);
-  }
-  CHECK(slides > 10);
-}
-
 TEST_CASE("space: modes are linear equations, free unknowns as guessed") {
   ExactProblem problem;
   problem.dimension = 3;
@@ -319,30 +239,6 @@ TEST_CASE("space: that there is no solution is proved word by word, or not at al
   cancelled.progress = [](const EnumerationProgress&) { return false; };
   CHECK(RefuteInSpace(problem, cancelled).end == EnumerationEnd::kCancelled);
   CHECK_THROWS_AS(RefuteInSpace(ThreeSolutions()), InputError);
-}
-
-TEST_CASE("space: what is solved is not refuted, and what is refuted is proved") {
-  int refuted = 0;
-  for (int index = 0; index < Few(120); ++index) {
-    CAPTURE(index);
-    ExactProblem problem = RandomInSpace(1 + index % 3, index);
-    if (index % 4 == 1) {  // nothing moves the first contact up or down
-      problem.A.row(0).setZero();
-      problem.A.col(0).setZero();
-      problem.b[0] = index % 8 == 1 ? -1 : 1;
-    }
-    const Enumeration modes = RefuteInSpace(problem);
-    const Existence weak = DecideExistence(problem, {}),
-                    strict = DecideExistence(problem, {}, {}, FrictionLaw::kCoulomb);
-    for (const Json& certificate : {weak.certificate, strict.certificate}) {
-      if (certificate.is_null()) continue;
-      CHECK(CheckCertificate(certificate, "here").accepted);
-      CHECK((certificate["claim"] == "no-solution") == modes.ProvesNoSolution());
-    }
-    if (IsInRange(problem)) CHECK(strict.certificate["claim"] == "coulomb-solution");
-    refuted += modes.ProvesNoSolution();
-  }
-  CHECK(refuted >= Few(12));
 }
 
 // A contact that nothing can lift beside two that press: u has ones in normal rows and in some tangents.

@@ -73,42 +73,6 @@ void CheckEqual(const SparseProblem& found, const SparseProblem& expected) {
   CHECK((found.b == expected.b));
 }
 
-TEST_CASE("formats: what is written is read back to the same numbers, however it is stored", "[slow]") {
-  const Folder folder;
-  const std::vector<ContactKind> smooth(4, ContactKind::kFrictionless), rough(3, ContactKind::kStatic);
-  std::vector<ContactKind> joined = rough;
-  joined.insert(joined.end(), 2, ContactKind::kBilateral);
-  int files = 0;
-  for (const PublishedFormat& format : PublishedFormats()) {
-    for (const std::string& storage : format.storages) {
-      for (int seed = 0; seed < 12; ++seed) {
-        CAPTURE(format.name, storage, seed);
-        const bool lcp = format.name == "siconos-lcp", fclib = format.name == "fclib";
-        const int dimension = lcp ? 2 : 2 + seed % 2;
-        SparseProblem problem = RandomDoubles(lcp                      ? smooth
-                                              : fclib && seed % 3 == 0 ? joined
-                                                                       : rough,
-                                              dimension, seed);
-        if (fclib) {
-          // Between static and bilateral contacts the format has one matrix for both triangles.
-          const int rows = 3 * dimension;
-          std::erase_if(problem.A, [rows](const auto& entry) {
-            return (entry.first.first < rows) != (entry.first.second < rows);
-          });
-          if (problem.rows() > rows) problem.A[{0, rows + 1}] = problem.A[{rows + 1, 0}] = Rational(0.1);
-        }
-        const auto file = folder / "problem.any";
-        const ExportReport report = WritePublished(problem, file, format.name, storage, Rounding::kRefused);
-        CHECK(report.rounded == 0);
-        CheckEqual(ReadPublished(file), problem);
-        CheckEqual(ReadPublished(file, format.name), problem);
-        ++files;
-      }
-    }
-  }
-  CHECK(files == 11 * 12);
-}
-
 TEST_CASE("formats: problems without contacts or without entries are written and read") {
   const Folder folder;
   for (const PublishedFormat& format : PublishedFormats()) {

@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/polygon.h"
 #include "tests/support.h"
@@ -117,18 +116,6 @@ TEST_CASE("scenes: bodies are convex polygons of uniform density, and no two ove
       REQUIRE(properties.inertia * bodies[a].mass == bodies[a].inertia * properties.mass);
     }
   });
-}
-
-TEST_CASE("scenes: a scene file keeps the scene") {
-  for (int contacts = 1; contacts <= kMaxContacts; ++contacts) {
-    const Made made = Make(contacts, 0);
-    SceneFile file;
-    file.scene = made.scene;
-    const SceneFile read = ParseScene(Print(file), "scene");
-    const ExactProblem problem = FullModel(read.scene);
-    CHECK(problem.A == made.problem.A);
-    CHECK(problem.b == made.problem.b);
-  }
 }
 
 // What the words of the table promise: a body on two others, one wedged between two, a tilted floor, ...

@@ -49,47 +49,6 @@ double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd
   return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
 }
 
-TEST_CASE("body newton: A of factors is J W J', entry by entry") {
-  Draw draw(1);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    FactoredProblem<double> problem = draw.Problem(3, {ContactKind::kStatic, ContactKind::kBilateral});
-    for (int k = 0; k < problem.M.cols(); ++k) problem.M.coeffRef(k, k) = 1 + k;
-    Eigen::SparseMatrix<double> W = problem.M;
-    for (int k = 0; k < W.cols(); ++k) W.coeffRef(k, k) = 1 / W.coeff(k, k);
-    const Eigen::MatrixXd J = problem.A.J();
-    problem.A = {problem.A.J(), W};
-    const Eigen::MatrixXd A = J * W * J.transpose();
-    CHECK((testing::AllOf(problem) - A).norm() <= 1e-14 * A.norm());
-    CHECK(problem.A.coeff(0, 0) == Approx(A(0, 0)));
-    CHECK(
-        (problem.Accelerations(Eigen::VectorXd::Ones(problem.rows())) - problem.b - A.rowwise().sum()).norm() <=
-        1e-13 * A.norm());
-  }
-}
-
-TEST_CASE("body newton: what it calls solved is solved, in the plane and in space, for all kinds of contacts") {
-  Draw draw(2);
-  const std::vector<ContactKind> no_slides = {ContactKind::kStatic, ContactKind::kStatic,
-                                              ContactKind::kFrictionless, ContactKind::kBilateral};
-  std::vector<ContactKind> all = no_slides;
-  all.push_back(ContactKind::kSliding);
-  BodyNewton<double> method;
-  for (const int dimension : {2, 3}) {
-    for (const bool slides : {false, true}) {
-      INFO(dimension << (slides ? " with sliding contacts" : ""));
-      int solved = 0;
-      for (int repeat = 0; repeat < 200; ++repeat) {
-        const FactoredProblem<double> problem = draw.Problem(dimension, slides ? all : no_slides);
-        if (method.Run(problem).outcome != Outcome::kSolved) continue;
-        ++solved;
-        CHECK(GateErrorOf(problem, method.f()) < 1e-8);
-        CHECK((testing::AllOf(problem) * method.f() + problem.b - method.a()).norm() < 1e-9);
-      }
-      CHECK(solved >= (slides ? 150 : 190));
-    }
-  }
-}
-
 TEST_CASE("body newton: from a solution it factors nothing, and stays there") {
   Draw draw(3);
   BodyNewton<double> method;

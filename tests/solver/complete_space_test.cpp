@@ -4,7 +4,6 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <set>
 #include <sstream>
 
@@ -382,28 +381,6 @@ TEST_CASE("space: bilateral, frictionless, smooth and static contacts mix, degen
   CHECK(counts.ties > 30);
 }
 
-// Every contact twice.
-TEST_CASE("space: duplicated contacts are solved") {
-  PathCounts counts;
-  for (int index = 0; index < 40; ++index) {
-    CAPTURE(index);
-    Choices choices(40000 + index);
-    const int n = 1 + index % 2;
-    auto contacts = StaticContacts(n, choices);
-    const ExactProblem single = RandomInSpace(contacts, 3 * n + 1, 9, true, choices);
-    contacts.insert(contacts.end(), contacts.begin(), contacts.end());
-    ExactProblem twice = single;
-    twice.contacts = contacts;
-    std::vector<int> rows;
-    for (int copy = 0; copy < 2; ++copy) {
-      for (int row = 0; row < 3 * n; ++row) rows.push_back(row);
-    }
-    twice.A = ExactMatrix(single.A(rows, rows));
-    twice.b = ExactVector(single.b(rows));
-    CheckSolved(twice, AllWith(twice, 8), counts);
-  }
-}
-
 // b + e e_N + (e^2, e^3, ...) for a number e that is small enough here.
 ExactProblem PerturbedInSpace(ExactProblem problem) {
   Rational e = 1;
@@ -439,98 +416,6 @@ TEST_CASE("space: ties are told as a small perturbation of b tells them") {
     CHECK(symbolic.word == real.word);
   }
   CHECK(tied > 50);
-}
-
-// Forces that all contacts allow, whatever the accelerations.
-bool IsInCone(const ExactProblem& problem, const Polygons& polygons, const ExactVector& v) {
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const auto& contact = problem.contacts[i];
-    if (contact.kind != ContactKind::kBilateral && v[row] < 0) return false;
-    if (contact.HasFrictionRows()) {
-      for (int k = 0; k < polygons[i].sides(); ++k) {
-        if (Dot(polygons[i].normal(k), Tangential(v, row)) > contact.mu * v[row] * polygons[i].reach(k))
-          return false;
-      }
-    }
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
-  return true;
-}
-
-TEST_CASE("space: where b is not in the range of A, a ray is a certificate") {
-  PathCounts counts;
-  int rays = 0, solved = 0;
-  for (int index = 0; index < 250; ++index) {
-    CAPTURE(index);
-    Choices choices(80000 + index);
-    ExactProblem problem =
-        RandomInSpace(MixedContacts(1 + index % 3, choices), 1 + index % 4, 2, false, choices);
-    for (Rational& x : problem.b) x = choices.Integer(-3, 3);
-    if (IsInRange(problem)) continue;
-    const Polygons polygons = AllWith(problem, 8);
-    const SpaceRun run = RunSpace(problem, polygons);
-    CheckPath(problem, polygons, run, counts);
-    if (run.verdict.outcome == Outcome::kSolved) {
-      ++solved;
-      CheckLaw(problem, polygons, run.f);
-      continue;
-    }
-    REQUIRE(run.verdict.outcome == Outcome::kRay);
-    ++rays;
-    CHECK(problem.b.dot(run.ray) < 0);
-    CHECK(ExactVector(problem.A * run.ray) == ExactVector::Zero(problem.rows()));
-    CHECK(IsInCone(problem, polygons, run.ray));
-  }
-  CHECK(rays > 30);
-  CHECK(solved > 30);
-}
-
-TEST_CASE("space: a problem of the plane, put into space, is solved by forces of the plane") {
-  for (int index = 0; index < 60; ++index) {
-    CAPTURE(index);
-    const int n = 1 + index % 3;
-    const auto plane = Random<Rational>(static_cast<GeneratorId>(index % kOrdinaryGeneratorCount), n, index);
-    ExactProblem problem;
-    problem.dimension = 3;
-    problem.contacts = plane.contacts;
-    problem.A = ExactMatrix::Zero(3 * n, 3 * n);
-    problem.b = ExactVector::Zero(3 * n);
-    const auto in_space = [](int row) { return row / 2 * 3 + row % 2; };
-    for (int i = 0; i < 2 * n; ++i) {
-      problem.b[in_space(i)] = plane.b[i];
-      for (int j = 0; j < 2 * n; ++j) problem.A(in_space(i), in_space(j)) = plane.A(i, j);
-    }
-    for (int i = 0; i < n; ++i) problem.A(3 * i + 2, 3 * i + 2) = 1;  // ay = fy
-    const SpaceRun run = RunSpace(problem, AllWith(problem, 4));
-    REQUIRE(run.verdict.outcome == Outcome::kSolved);
-    ExactVector f(2 * n);
-    for (int i = 0; i < 2 * n; ++i) f[i] = run.f[in_space(i)];
-    CHECK(FindViolation(plane, f).value_or("") == "");
-    for (int i = 0; i < n; ++i) CHECK(run.f[3 * i + 2] == 0);
-  }
-}
-
-TEST_CASE("space: sliding contacts end in a solution or a ray") {
-  std::map<Outcome, int> outcomes;
-  for (int index = 0; index < 120; ++index) {
-    CAPTURE(index);
-    Choices choices(90000 + index);
-    auto contacts = StaticContacts(1 + index % 3, choices);
-    contacts[0].kind = ContactKind::kSliding;
-    contacts[0].slip = OnCircle(Rational(Rational(choices.Integer(-4, 4)) / 3));
-    const ExactProblem problem = RandomInSpace(contacts, 7, 3, true, choices);
-    const Polygons polygons = AllWith(problem, 4);
-    const SpaceRun run = RunSpace(problem, polygons);
-    ++outcomes[run.verdict.outcome];
-    if (run.verdict.outcome != Outcome::kSolved) continue;
-    CheckLaw(problem, polygons, run.f);
-    const Rational limit = contacts[0].mu * run.f[0];
-    CHECK(run.f[1] == -limit * contacts[0].slip[0]);
-    CHECK(run.f[2] == -limit * contacts[0].slip[1]);
-  }
-  CHECK(outcomes[Outcome::kSolved] + outcomes[Outcome::kRay] == 120);
-  CHECK(outcomes[Outcome::kRay] > 0);
 }
 
 TEST_CASE("space: bilateral contacts that contradict each other are a ray") {

@@ -8,10 +8,8 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <type_traits>
 #include <utility>
 
-#include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
 #include "solver/published/published.h"
 #include "tests/support.h"
@@ -512,36 +510,6 @@ TEST_CASE("complete: ties are told as a small perturbation of b tells them") {
   }
 }
 
-TEST_CASE("complete: where b is not in the range of A, a ray is a certificate") {
-  int rays = 0, solved = 0;
-  for (int index = 0; index < 1500; ++index) {
-    CAPTURE(index);
-    ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 1 + index % 4, index);
-    Choices choices(index);
-    for (Rational& x : problem.b) x = choices.Integer(-3, 3);
-    if (IsInRange(problem)) continue;
-    const CompleteRun run = RunComplete(problem);
-    CheckPath(problem, run);
-    if (run.verdict.outcome == Outcome::kSolved) {
-      ++solved;
-      CHECK(FindViolation(problem, run.f).value_or("") == "");
-      continue;
-    }
-    REQUIRE(run.verdict.outcome == Outcome::kRay);
-    ++rays;
-    Rational power = 0;
-    for (int i = 0; i < problem.rows(); ++i) power += problem.b[i] * run.ray[i];
-    CHECK(power < 0);
-    CHECK(Accelerations(problem, run.ray) == problem.b);  // A v = 0
-    for (int i = 0; i < problem.rows(); i += 2) {
-      CHECK(run.ray[i] >= 0);
-      CHECK(abs(run.ray[i + 1]) <= problem.contacts[i / 2].mu * run.ray[i]);
-    }
-  }
-  CHECK(rays > 100);
-  CHECK(solved > 100);
-}
-
 TEST_CASE("complete: whatever the matrix, a run ends in a solution or a ray") {
   std::map<Outcome, int> counts;
   for (int index = 0; index < 1000; ++index) {
@@ -658,38 +626,6 @@ TEST_CASE("complete: where no sign stands out of the tolerance no stage is enter
   CHECK(verdict.statistics[Counter::kTies] == 1);
   CHECK(verdict.statistics[Counter::kStages] == 0);
   CHECK(algorithm.Word() == "?");
-}
-
-// The problem that a Scalar sees, exactly.
-template <class Scalar>
-ExactProblem RoundedTo(ExactProblem problem) {
-  const auto round = [](Rational& x) { x = Rational(static_cast<double>(To<Scalar>(x))); };
-  for (auto& contact : problem.contacts) round(contact.mu);
-  for (Rational& x : problem.b) round(x);
-  for (Rational& x : problem.A.reshaped()) round(x);
-  return problem;
-}
-
-TEMPLATE_TEST_CASE("complete: inexact arithmetic is undecided rather than wrong", "", float, double) {
-  const bool single = std::is_same_v<TestType, float>;
-  CompleteDriving<TestType> algorithm;
-  std::map<Outcome, int> counts;
-  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
-    for (int index = 0; index < 300; ++index) {
-      CAPTURE(g, index);
-      const ExactProblem exact =
-          RoundedTo<TestType>(Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index));
-      const RunEnd<> verdict = algorithm.Run(As<TestType>(exact));
-      ++counts[verdict.outcome];
-      CHECK((verdict.outcome == Outcome::kUndecided) == !verdict.reason.empty());
-      if (verdict.outcome != Outcome::kSolved) continue;
-      ExactVector f(exact.rows());
-      for (int i = 0; i < exact.rows(); ++i) f[i] = Rational(static_cast<double>(algorithm.f()[i]));
-      CHECK(LenientErrorOf(exact, f, Accelerations(exact, f)) <= Rational(1, single ? 50000 : 1000000));
-    }
-  }
-  CHECK(counts[Outcome::kSolved] + counts[Outcome::kUndecided] == 300 * kOrdinaryGeneratorCount);
-  CHECK(counts[Outcome::kSolved] > (single ? 1800 : 2000));
 }
 
 TEST_CASE("complete: numbers that are not finite are undecided") {

@@ -257,31 +257,6 @@ TEST_CASE("coulomb: contacts at rest that b does not quite leave at rest are sol
   CHECK(solved > 52);
 }
 
-TEST_CASE("coulomb: a sparse A gives the answers of a dense one") {
-  CoulombSolver<double> dense({.sides = 0});
-  CoulombSolver<double, SparseContactProblem<double>> sparse({.sides = 0});
-  int solved = 0;
-  for (int index = 0; index < 60; ++index) {
-    CAPTURE(index);
-    Choices choices(7000 + index);
-    const int n = 1 + index % 6;
-    const bool definite = index % 2 == 0;
-    Problem problem = RandomRound(n, definite ? 3 * n : 1 + index % 7, definite, choices);
-    if (index % 3 == 0) problem = Repeated(2 + index % 5, 1, 1e-3, choices);
-    const SparseContactProblem<double> same = {3, problem.contacts, problem.A.sparseView(), problem.b};
-    const RunEnd<> expected = dense.Run(problem), verdict = sparse.Run(same);
-    if (verdict.outcome == Outcome::kSolved) {
-      ++solved;
-      CHECK(ErrorOf(problem, sparse.f(), Problem::Vector(problem.A * sparse.f() + problem.b)) <= 1e-8);
-    }
-    if (definite && index % 3 != 0) {  // almost always one solution; dense and sparse are the same steps
-      CHECK(expected.outcome == verdict.outcome);
-      CHECK((sparse.f() - dense.f()).norm() <= 1e-6 * (1 + dense.f().norm()));
-    }
-  }
-  CHECK(solved >= 57);
-}
-
 TEST_CASE("coulomb: a slightly asymmetric matrix is solved as it is") {
   CoulombSolver<double> solver;
   for (int index = 0; index < 60; ++index) {
@@ -304,25 +279,6 @@ TEST_CASE("coulomb: asymmetric problems with repeated contacts are solved withou
     solved += solver.Run(Repeated(6, 4, 1e-3, choices)).outcome == Outcome::kSolved;
   }
   CHECK(solved == problems);
-}
-
-TEST_CASE("coulomb: other kinds of contacts stand beside") {
-  CoulombSolver<double> solver;
-  for (int index = 0; index < 100; ++index) {
-    CAPTURE(index);
-    Choices choices(5000 + index);
-    Problem problem = RandomRound(4, 12, true, choices);
-    problem.contacts[0] = {ContactKind::kBilateral, 0, {}};
-    problem.contacts[1] = {ContactKind::kFrictionless, 0, {}};
-    problem.contacts[2].mu = 0;
-    const std::vector<int> rows = {0, 3, 6, 7, 8, 9, 10, 11};
-    problem.A = Problem::Matrix(problem.A(rows, rows));
-    problem.b = Problem::Vector(problem.b(rows));
-    REQUIRE(solver.Run(problem).outcome == Outcome::kSolved);
-    CHECK(std::abs(solver.a()[0]) < 1e-12);
-    CHECK(solver.f()[1] >= 0);
-    CHECK(std::hypot(solver.f()[3], solver.f()[4]) < 1e-12);
-  }
 }
 
 TEST_CASE("coulomb: what has no solution is undecided") {

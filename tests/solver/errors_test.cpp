@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of forces: zero on solutions and nowhere else.
+// Errors of forces: what known ones miss. tests/model holds that they are zero on solutions and nowhere else.
 
 #include "solver/problem/errors.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -16,30 +15,6 @@ using namespace testing;
 
 Rational Residual(const ExactProblem& problem, const ExactVector& f) {
   return ErrorOf(problem, f, Accelerations(problem, f));
-}
-
-ExactVector RandomForces(int rows, Choices& choices) {
-  ExactVector f(rows);
-  for (Rational& x : f) x = Rational(choices.Integer(-2, 2)) / 2;
-  return f;
-}
-
-TEST_CASE("errors: zero exactly on solutions, positive elsewhere", "[slow]") {
-  int solutions = 0;
-  for (int index = 0; index < 400; ++index) {
-    CAPTURE(index);
-    Choices choices(index);
-    const ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 1 + index % 3, index);
-    std::vector<ExactVector> tried = {RunExact(problem, {}).state.f};
-    for (int k = 0; k < 50; ++k) tried.push_back(RandomForces(problem.rows(), choices));
-    for (const ExactVector& f : tried) {
-      const bool solves = !FindViolation(problem, f);
-      REQUIRE((Residual(problem, f) == 0) == solves);
-      REQUIRE(Residual(problem, f) >= 0);
-      solutions += solves;
-    }
-  }
-  CHECK(solutions > 400);
 }
 
 TEST_CASE("errors: the three solutions of one contact have none") {
@@ -53,24 +28,6 @@ TEST_CASE("errors: a contact that pulls has no friction to spend") {
   const ExactVector f = Vector({-1, 3});
   REQUIRE(Accelerations(problem, f) == Vector({0, 0}));
   CHECK(ErrorOf(problem, f, Accelerations(problem, f)) >= 1);  // all of b is held by it
-}
-
-TEST_CASE("errors: other units of force or acceleration do not change it") {
-  const ExactProblem problem = ReferenceProblem();
-  const ExactVector f = Vector({1, Rational(-1, 2), 2, -1});
-  const Rational residual = Residual(problem, f);
-  REQUIRE(residual > 0);
-  ExactProblem loaded = problem, heavy = problem;
-  ExactVector more = f;
-  for (int i = 0; i < 4; ++i) {
-    loaded.b[i] *= 7;
-    more[i] *= 7;
-    heavy.b[i] *= 7;
-    for (int j = 0; j < 4; ++j) heavy.A(i, j) *= 7;
-  }
-  const Rational tiny("1/10000000000000000000000000");  // of roots
-  CHECK(abs(Rational(Residual(loaded, more) - residual)) < tiny);
-  CHECK(abs(Rational(Residual(heavy, f) - residual)) < tiny);
 }
 
 TEST_CASE("errors: forces of any size are judged alike") {

@@ -52,30 +52,6 @@ TEST_CASE("frictionless: every policy finds the enumerated solution, and none gi
   }
 }
 
-TEST_CASE("frictionless: permuting contacts permutes the forces") {
-  for (int seed = 0; seed < 100; ++seed) {
-    CAPTURE(seed);
-    const ExactProblem problem = RandomFrictionless(2 + seed % 5, seed);
-    std::vector<int> rows;
-    const ExactProblem reversed = Reversed(problem, &rows);
-    const ExactVector f = RunExact(problem, {}).state.f, g = RunExact(reversed, {}).state.f;
-    for (std::size_t i = 0; i < rows.size(); ++i) CHECK(g[i] == f[rows[i]]);
-  }
-}
-
-TEST_CASE("frictionless: semidefinite problems are solved to the one acceleration there is (theorem 5)") {
-  for (int index = 0; index < 300; ++index) {
-    CAPTURE(index);
-    ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 3, index);
-    for (auto& contact : problem.contacts) contact = {ContactKind::kFrictionless, 0, {}};
-    problem.contacts.resize(6, {ContactKind::kFrictionless, 0, {}});
-    const ExactRun run = RunExact(problem, {});
-    REQUIRE(run.verdict.outcome == Outcome::kSolved);
-    const auto solutions = EnumeratedSolutions(problem);
-    for (const ExactVector& f : solutions) CHECK(run.a == Accelerations(problem, f));
-  }
-}
-
 TEMPLATE_TEST_CASE("frictionless: the family E_n takes 2^n - 1 pivots, 2^(k-1) of them in drive k", "", float,
                    double, Rational) {
   // A float holds b_i of E_6 with few digits to spare, E_8 not at all.

@@ -241,23 +241,6 @@ TEST_CASE("gate: over float a stack does not sink, and what is right to the last
   CHECK(BoundErrors(problem, FrictionLaw::kCoulomb, sinks, gate).Largest() > gate.eps);
 }
 
-TEST_CASE("gate: exact solutions, rounded, pass with room") {
-  int solved = 0;
-  for (const GeneratorId id : {GeneratorId::kPsd, GeneratorId::kBodies, GeneratorId::kBilateral,
-                               GeneratorId::kSliding, GeneratorId::kNearDegenerate}) {
-    for (int index = 0; index < Few(100); ++index) {
-      CAPTURE(Row(id).name, index);
-      const ExactProblem problem = Unrounded(Rounded<double>(Random<Rational>(id, 1 + index % 4, index)));
-      const ExactAnswer answer = SolveExactly(problem, {.method = "complete"});
-      if (answer.outcome != Outcome::kSolved) continue;
-      const Eigen::VectorXd f = answer.f.unaryExpr([](const Rational& x) { return ToDouble(x); });
-      CHECK(ErrorAt(problem, f) < kEps / 2);
-      ++solved;
-    }
-  }
-  CHECK(solved > Few(300));
-}
-
 TEST_CASE("gate: noise that methods leave is taken away before it asks") {
   int refused = 0, tried = 0;
   for (int n = 1; n <= 40; ++n) {  // a stack of boxes of one contact each, pushed by noise of 1e-12
@@ -351,36 +334,6 @@ TEST_CASE("gate: in the plane the direction of a slip is a sign, which rounding 
     CHECK(answer.Solved());
     CHECK(answer.errors->Largest() <= kEps);
   }
-}
-
-TEST_CASE("gate: what it lets pass is an exact solution of a neighbour of the problem, made over rationals") {
-  int passed = 0, refused = 0;
-  for (const GeneratorId id : {GeneratorId::kPsd, GeneratorId::kNearDegenerate, GeneratorId::kBodies,
-                               GeneratorId::kSliding, GeneratorId::kSpace}) {
-    for (int index = 0; index < Few(80); ++index) {
-      const ExactProblem problem = Unrounded(Rounded<double>(Random<Rational>(id, 1 + index % 3, index)));
-      const Answer<double> answer = Solve(Rounded<double>(problem), {.method = "fast"});
-      if (!answer.Solved()) continue;
-      Choices choices(index);
-      for (int k = 0; k < 12; ++k) {
-        CAPTURE(Row(id).name, index, k);
-        Eigen::VectorXd f = answer.f;  // a solution, and points near it
-        for (double& x : f) x += std::ldexp(static_cast<double>(choices.Integer(-k, k)), -4 * k);
-        for (const FrictionLaw law : {FrictionLaw::kCoulomb, FrictionLaw::kBaraff}) {
-          const double error = BoundErrors(Rounded<double>(problem), law, f, GateOf<double>()).Largest();
-          if (!(error < 0.1)) continue;
-          const ExactVector exact = f.unaryExpr([](double x) { return Rational(x); });
-          const double theta = GateOf<double>().theta();
-          const double most = error + 4 * kTold<double>;  // a limit of friction rounds
-          CHECK(FindMiss(problem, exact, law, Gate{most, most * theta}).value_or("") == "");
-          ++passed;
-          refused += FindMiss(problem, exact, law, Gate{error / 1000, error * theta / 1000}).has_value();
-        }
-      }
-    }
-  }
-  CHECK(passed > Few(2000));
-  CHECK(refused > passed / 2);  // it is not far above what is missed
 }
 
 TEST_CASE("gate: a number that is not finite, and rounding beyond the bound, are never let pass") {

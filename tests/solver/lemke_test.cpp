@@ -4,11 +4,9 @@
 #include "solver/lemke/lemke.h"
 
 #include <catch2/catch.hpp>
-#include <type_traits>
 
 #include "certify/exact/enumerate.h"
 #include "certify/exact/verify_solution.h"
-#include "solver/problem/errors.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -38,23 +36,6 @@ ExactProblem RandomDefinite(int contacts, std::uint64_t seed) {
     }
   }
   return MakeProblem(mu, A, b);
-}
-
-TEST_CASE("lemke: problems that meet the paper's assumptions are solved, whatever the generator") {
-  LemkeAlgorithm<Rational> lemke;
-  for (const GeneratorRow& generator : Generators()) {
-    if (!generator.IsPlain()) continue;
-    for (int contacts = 1; contacts <= 4; ++contacts) {
-      for (std::uint64_t index = 0; index < 25; ++index) {
-        const ExactProblem problem = Random<Rational>(generator.id, contacts, index);
-        const RunEnd<> verdict = lemke.Run(problem);
-        INFO(generator.name << " " << contacts << " " << index);
-        REQUIRE(verdict.outcome == Outcome::kSolved);
-        CHECK_FALSE(FindViolation(problem, lemke.f()));
-        CHECK(lemke.a() == Accelerations(problem, lemke.f()));
-      }
-    }
-  }
 }
 
 // 1/p of row p in every number, so that each row of the tableau has a unit of its own.
@@ -98,46 +79,6 @@ TEST_CASE("lemke: a budget of bits is one of numbers in lowest terms") {
     CHECK(verdict.outcome == (bits == 2 ? Outcome::kLimit : Outcome::kSolved));
     CHECK(verdict.reason == (bits == 2 ? "bits" : ""));
   }
-}
-
-TEST_CASE("lemke: mixed frictionless and static contacts") {
-  LemkeAlgorithm<Rational> lemke;
-  for (std::uint64_t index = 0; index < 40; ++index) {
-    ExactProblem problem = Random<Rational>(GeneratorId::kIntegers, 3, index);
-    const std::vector<int> kept = {0, 1, 2, 4, 5};  // the second contact loses its friction
-    ExactProblem mixed = problem;
-    mixed.contacts[1] = {ContactKind::kFrictionless, 0, {}};
-    mixed.A.resize(5, 5);
-    mixed.b.resize(5);
-    for (int i = 0; i < 5; ++i) {
-      mixed.b[i] = problem.b[kept[i]];
-      for (int j = 0; j < 5; ++j) mixed.A(i, j) = problem.A(kept[i], kept[j]);
-    }
-    REQUIRE(lemke.Run(mixed).outcome == Outcome::kSolved);
-    CHECK_FALSE(FindViolation(mixed, lemke.f()));
-  }
-}
-
-TEMPLATE_TEST_CASE("lemke: over floating point an answer is right or undecided", "", float, double) {
-  LemkeAlgorithm<TestType> lemke({}, Cover::kUnits);
-  LemkeAlgorithm<Rational> exact({}, Cover::kUnits);
-  int solved = 0, alike = 0;
-  for (std::uint64_t index = 0; index < 200; ++index) {
-    const ExactProblem problem = RandomDefinite(3, index);
-    const auto rounded = As<TestType>(problem);
-    const RunEnd<> verdict = lemke.Run(rounded);
-    if (verdict.outcome == Outcome::kSolved) {
-      ++solved;
-      CHECK(LenientErrorOf(rounded, lemke.f(), lemke.a()) <= TestType(1e-6));
-      if (verdict.statistics[Counter::kPivots] == exact.Run(problem).statistics[Counter::kPivots]) ++alike;
-    } else {
-      CHECK(verdict.outcome == Outcome::kUndecided);
-      CHECK_FALSE(verdict.reason.empty());
-    }
-  }
-  const bool single = std::is_same_v<TestType, float>;
-  CHECK(solved >= (single ? 150 : 200));
-  CHECK(alike >= (single ? 140 : 199));
 }
 
 TEST_CASE("lemke: with a covering vector in the units of the problem the path does not depend on units") {

@@ -77,24 +77,6 @@ SparseProblem Discs(int columns, int height, const Rational& mu) {
   return problem;
 }
 
-TEST_CASE("proximal: problems of every generator are solved, or undecided, never wrong") {
-  ProximalNewton<double> method;
-  int solved = 0, runs = 0;
-  for (int g = 0; g < kOrdinaryGeneratorCount; ++g) {
-    for (int index = 0; index < 60; ++index) {
-      CAPTURE(g, index);
-      const ExactProblem drawn = Random<Rational>(static_cast<GeneratorId>(g), 1 + index % 6, index);
-      const SparseContactProblem<double> problem = InDoubles(Sparse(drawn));
-      ++runs;
-      if (method.Run(problem).outcome != Outcome::kSolved) continue;
-      ++solved;
-      const Eigen::VectorXd a = problem.A * method.f() + problem.b;
-      CHECK(ErrorOf(problem, method.f(), a) <= 1e-8);
-    }
-  }
-  CHECK(solved > 0.9 * runs);
-}
-
 TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction and without", "[slow]") {
   for (const Rational& mu : {Rational(1, 5), Rational(0), Rational(3, 2)}) {
     if (Short() && mu != Rational(1, 5)) continue;

@@ -448,14 +448,6 @@ TEST_CASE("space: mirrored axes change nothing, and what sticks does not ask for
 
 // ---- How runs end --------------------------------------------------------------------------------
 
-TEMPLATE_TEST_CASE("space: every scalar solves", "", float, double) {
-  PublishedInSpace<TestType> algorithm;
-  const auto problem = As<TestType>(Turning());
-  CHECK(algorithm.Run(problem).outcome == Outcome::kSolved);
-  CHECK(static_cast<double>(algorithm.f()[1]) == Approx(-2.0 / 3).epsilon(1e-5));
-  CHECK(algorithm.Run(problem).outcome == Outcome::kSolved);  // again, with the memory of the run before
-}
-
 TEST_CASE("space: no contacts, budgets, and what is no number") {
   ExactProblem none = NoContacts();
   none.dimension = 3;

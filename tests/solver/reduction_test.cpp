@@ -3,16 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "certify/exact/enumerate.h"
-#include "certify/exact/exact.h"
-#include "certify/exact/verify_solution.h"
 #include "corpus/record/sparse_problem.h"
-#include "solver/complete/complete.h"
 #include "solver/linear/direction.ipp"
-#include "solver/problem/errors.h"
 #include "solver/problem/reduction.ipp"
 #include "solver/published/published.ipp"
-#include "tests/methods.h"
 #include "tests/support.h"
 
 namespace stiction::testing {
@@ -33,25 +27,6 @@ TEST_CASE("a problem without bilateral or sliding contacts is its own reduction"
   CHECK(reduction.problem().b == problem.b);
   CHECK(reduction.row_of() == std::vector<int>{0, 1, 2, 3});
   CHECK(reduction.Forces(Vector({1, 2, 3, 4})) == Vector({1, 2, 3, 4}));
-}
-
-TEST_CASE("4.5: complete driving on the reduction solves problems with bilateral constraints") {
-  int with_bilateral = 0, redundant = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const ExactProblem problem = RandomMixed(seed, false, &redundant);
-    const Reduction<Rational> reduction(problem);
-    REQUIRE(reduction.end() == ReductionEnd::kReduced);
-    with_bilateral += Reduction<Rational>::Concerns(problem);
-    const ExactAnswer run = RunComplete(reduction.problem(), {});
-    REQUIRE(run.outcome == Outcome::kSolved);
-    const ExactVector f = reduction.Forces(run.f);
-    const auto violation = FindViolation(problem, f);
-    INFO(violation.value_or(""));
-    REQUIRE_FALSE(violation);
-    for (int row = 0; row < reduction.problem().rows(); ++row) CHECK(f[reduction.row_of()[row]] == run.f[row]);
-  }
-  CHECK(with_bilateral > 150);
-  CHECK(redundant > 20);
 }
 
 TEST_CASE("4.5: a direction of the reduction is the direction with the bilateral constraint in C") {
@@ -90,29 +65,6 @@ TEST_CASE("a singular bilateral block that acts on other contacts is refused") {
   CHECK(Reduction<double>(InDoubles(problem)).end() == ReductionEnd::kSingular);
 }
 
-TEST_CASE("6: a solution of the reduction obeys (24), and the modes agree where there is one") {
-  int solved = 0, rays = 0, none = 0;
-  for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
-    const ExactProblem problem = RandomMixed(seed, true);
-    const Reduction<Rational> reduction(problem);
-    REQUIRE(reduction.end() == ReductionEnd::kReduced);
-    const ExactAnswer run = RunComplete(reduction.problem(), {});
-    if (run.outcome == Outcome::kSolved) {
-      ++solved;
-      REQUIRE_FALSE(FindViolation(problem, reduction.Forces(run.f)));
-      continue;
-    }
-    REQUIRE(run.outcome == Outcome::kRay);
-    ++rays;
-    EnumerationOptions options;
-    options.first_solution_only = true;
-    none += EnumerateModes(problem, options).solutions.empty();
-  }
-  CHECK(solved > 100);
-  CHECK(rays > 3);
-  CHECK(none > 0);
-}
-
 TEST_CASE("6: the rod that slides: none, one or two solutions") {
   // Uniform rod, m = 1, half length 1, tan of the angle 2, friction coefficient 2: aN = -4/5 fN + bN.
   ExactProblem rod =
@@ -138,18 +90,6 @@ TEST_CASE("in space the friction of a sliding contact opposes a velocity in the 
   REQUIRE(reduction.problem().rows() == 1);
   CHECK(reduction.problem().A(0, 0) == Rational(5) - Rational(3, 5) + Rational(8, 5));
   CHECK(reduction.Forces(Vector({10})) == Vector({10, -6, 8}));
-}
-
-TEST_CASE("doubles: forces of the reduction leave a residual of rounding size") {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const ContactProblem<double> problem = InDoubles(RandomMixed(seed, seed % 2 == 0));
-    const Reduction<double> reduction(problem);
-    REQUIRE(reduction.end() == ReductionEnd::kReduced);
-    CompleteDriving<double> driving;
-    if (driving.Run(reduction.problem()).outcome != Outcome::kSolved) continue;
-    const Eigen::VectorXd f = reduction.Forces(driving.f());
-    CHECK(ErrorOf(problem, f, Eigen::VectorXd(problem.A * f + problem.b)) < 1e-9);
-  }
 }
 
 }  // namespace
