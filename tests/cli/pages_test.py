@@ -90,7 +90,7 @@ class Pages(cli.TestCase):
                    "--disable-background-networking", "--disable-component-update", "--disable-sync",
                    "--disable-dev-shm-usage", "--no-proxy-server", "--window-size=1200,900",
                    f"--user-data-dir={self.folder}/profile", "--enable-logging=stderr",
-                   "--virtual-time-budget=1000"]
+                   "--virtual-time-budget=10000"]
         return subprocess.run([browser, *options, "--dump-dom", url], capture_output=True, text=True, timeout=300)
 
     def shown(self, names):
