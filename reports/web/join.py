@@ -39,8 +39,11 @@ class Joined:
         return file.read_text()
 
     def sheet(self, file):
-        others = lambda found: (file.parent / found["path"]).resolve()
-        return SHEET.sub(lambda found: "" if others(found) in self.inputs else self.sheet(others(found)), self.read(file))
+        def take(found):
+            other = (file.parent / found["path"]).resolve()
+            return "" if other in self.inputs else self.sheet(other)
+
+        return SHEET.sub(take, self.read(file))
 
     def module(self, file):
         """Its text, with imports and exports taken out."""
