@@ -348,12 +348,8 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
       if (*stop) break;
       Request request = RequestOf(wanted, problem->problem(), kSource);
       request.limits.stop = stop;
-      // Doubles are timed without the rounding of the problem.
-      std::optional<ContactProblem<double>> rounded;
-      if (request.arithmetic == Arithmetic::kDouble) rounded = Rounded<double>(problem->problem());
-      const Stopwatch watch;
-      const Solution solution =
-          rounded ? SolveDoubles(*rounded, request) : SolveAsked(problem->problem(), request, kSource);
+      Stopwatch watch;
+      const Solution solution = SolveAsked(problem->problem(), request, kSource, nullptr, &watch);
       all.seconds.push_back(watch.Seconds());
       if (!judged.empty())
         all.residuals.push_back(LargestErrorOf(judged[all.outcomes.size()]->problem(), request, solution));

@@ -136,9 +136,9 @@ std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem) {
 }
 
 Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
-                    const ExactFactors* factors) {
+                    const ExactFactors* factors, Stopwatch* watch) {
   try {
-    return SolveIn(problem, request, factors);
+    return SolveIn(problem, request, factors, watch);
   } catch (const InputError& error) {
     throw InputError(source + ": " + error.what());
   }

@@ -49,7 +49,7 @@ std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem);
 
 // SolveIn, whose InputError then names the source.
 Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
-                    const ExactFactors* factors = nullptr);
+                    const ExactFactors* factors = nullptr, Stopwatch* watch = nullptr);
 
 // ---- Certificates ----
 

@@ -248,8 +248,11 @@ Solution SolveRounded(const RoundedProblem<Scalar>& problem, const Request& requ
 }
 
 template <class Scalar>
-Solution SolveRounded(const ExactProblem& problem, const Request& request, const ExactFactors* factors) {
-  return SolveRounded(RoundedProblem<Scalar>(problem), request, factors);
+Solution SolveRounded(const ExactProblem& problem, const Request& request, const ExactFactors* factors,
+                      Stopwatch* watch) {
+  const RoundedProblem<Scalar> rounded(problem);
+  if (watch != nullptr) *watch = Stopwatch();
+  return SolveRounded(rounded, request, factors);
 }
 
 // ---- Enclosures ----------------------------------------------------------------------------------
@@ -384,15 +387,15 @@ Solution SolveDoubles(const ContactProblem<double>& problem, const Request& requ
   return SolveRounded(RoundedProblem<double>(problem), request, nullptr);
 }
 
-Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors) {
+Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors, Stopwatch* watch) {
   RequireReading(problem, request);
   switch (request.arithmetic) {
     case Arithmetic::kFloat:
-      return SolveRounded<float>(problem, request, factors);
+      return SolveRounded<float>(problem, request, factors, watch);
     case Arithmetic::kDouble:
-      return SolveRounded<double>(problem, request, factors);
+      return SolveRounded<double>(problem, request, factors, watch);
     case Arithmetic::kQuad:
-      return SolveRounded<Quad>(problem, request, factors);
+      return SolveRounded<Quad>(problem, request, factors, watch);
     case Arithmetic::kInterval:
       return SolveOverIntervals(problem, request);
     case Arithmetic::kFiltered:

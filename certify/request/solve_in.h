@@ -19,6 +19,7 @@
 
 #include "certify/exact/solve.h"
 #include "corpus/record/factors.h"
+#include "corpus/stopwatch.h"
 
 namespace stiction {
 
@@ -55,8 +56,10 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 // Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
 // InputError where the published algorithm in space has no such reading.
-// `factors`: of the same problem, where it has some.
-Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors = nullptr);
+// `factors`: of the same problem, where it has some. `watch` starts anew once the problem is in the numbers of a
+// floating arithmetic.
+Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors = nullptr,
+                 Stopwatch* watch = nullptr);
 
 // The same of doubles over doubles, with no rationals but where it takes them: the answer of SolveIn,
 // arithmetic kDouble, of the rationals that they are. Requires finite numbers.
