@@ -20,7 +20,8 @@ import numpy as np
 import stiction
 import study
 
-METHODS = {"baraff": "double", "lemke": "double", "fast": "double", "qp-ipopt": "double", "qp": "exact"}
+METHODS = {"baraff": ("baraff", "double"), "lemke": ("lemke", "double"), "fast": ("fast", "double"),
+           "ipopt": ("qp", "double"), "qp": ("qp", "exact")}
 
 
 def lu_seconds(systems):
@@ -35,7 +36,7 @@ def lu_seconds(systems):
 
 def row_of(contacts, lu, runs):
     seconds = {method: run["seconds"] for method, run in runs.items()}
-    baraff, ipopt = seconds["baraff"], seconds["qp-ipopt"]
+    baraff, ipopt = seconds["baraff"], seconds["ipopt"]
     return {"contacts": contacts, "problems": len(baraff),
             **{f"{method} solved": int((run["outcome"] == "solved").sum()) for method, run in runs.items()},
             "lu us": 1e6 * lu, "baraff us": study.quartiles(baraff, 1e6), "baraff/lu": study.quartiles(baraff / lu),
@@ -53,9 +54,9 @@ def main():
         systems = [study.definite(n, random.Random(f"{o.seed} {n} {index}"), 1) for index in range(min(o.problems, most))]
         problems = [stiction.Problem(A, b, [0] * n, ["frictionless"] * n) for A, b in systems]
         runs = {}
-        for method, arithmetic in METHODS.items():
-            study.say(f"{n} contacts: {method}")
-            runs[method] = study.solved(problems, method, arithmetic, repeat=3 if arithmetic == "double" else 1)
+        for name, (method, arithmetic) in METHODS.items():
+            study.say(f"{n} contacts: {name}")
+            runs[name] = study.solved(problems, method, arithmetic, repeat=3 if arithmetic == "double" else 1)
         study.say()
         rows.append(row_of(n, lu_seconds(systems), runs))
         mismatches += study.contradictions([(1, runs["qp"])])
