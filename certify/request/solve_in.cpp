@@ -387,7 +387,8 @@ Solution SolveDoubles(const ContactProblem<double>& problem, const Request& requ
   return SolveRounded(RoundedProblem<double>(problem), request, nullptr);
 }
 
-Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors, Stopwatch* watch) {
+Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors,
+                 Stopwatch* watch) {
   RequireReading(problem, request);
   switch (request.arithmetic) {
     case Arithmetic::kFloat:

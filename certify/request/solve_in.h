@@ -56,8 +56,8 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& pr
 
 // Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
 // InputError where the published algorithm in space has no such reading.
-// `factors`: of the same problem, where it has some. `watch` starts anew once the problem is in the numbers of a
-// floating arithmetic.
+// `factors`: of the same problem, where it has some. `watch` starts anew once the problem is in the numbers of
+// a floating arithmetic.
 Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors = nullptr,
                  Stopwatch* watch = nullptr);
 
