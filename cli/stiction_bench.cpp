@@ -7,7 +7,6 @@
 #include <map>
 #include <vector>
 
-#include "bench/one_thread.h"
 #include "bench/suite.h"
 #include "cli/bench_words.h"
 #include "cli/command_line.h"
@@ -37,7 +36,6 @@ int RunBench(const BenchOptions& o) {
 
 // The words are those of the verb, which the program stands for.
 int Main(int argc, char** argv) {
-  RequireOneThread(argv);
   CommandLine program(kBenchPurpose, "stiction-bench " + BuildId(), kExitCodes);
   auto [verb, o] = program.Add("bench", kBenchPurpose, RunBench);
   AddBenchWords(verb, o);

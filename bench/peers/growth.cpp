@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "bench/peers/clocks.h"
+#include "bench/peers/one_thread.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
 #include "bench/structure.h"

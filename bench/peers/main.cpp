@@ -13,11 +13,10 @@
 #include <iostream>
 #include <optional>
 
-#include "bench/one_thread.h"
-#include "bench/peers/clocks.h"
 #include "bench/peers/engines.h"
 #include "bench/peers/families.h"
 #include "bench/peers/native_lu.h"
+#include "bench/peers/one_thread.h"
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
 #include "corpus/exit_code.h"

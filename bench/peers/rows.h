@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/peers/clocks.h"
+#include "bench/peers/one_thread.h"
 #include "bench/peers/tables.h"
 #include "corpus/order_statistics.h"
 

@@ -6,19 +6,16 @@ Lemke's method; the fast method, which factors the clamped part only; program (5
 call starts. Exactly: the program by CGAL (`qp`), on integers. Microseconds of processor time of whole calls, over doubles
 the least of three: median (quartiles). Exit 1 where an exact answer is wrong."""
 
-import os
-
-os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")  # read when numpy is loaded
-
 import json
 import random
 import sys
 import time
 
+import study  # before numpy: one thread
+
 import numpy as np
 
 import stiction
-import study
 
 METHODS = {"baraff": ("baraff", "double"), "lemke": ("lemke", "double"), "fast": ("fast", "double"),
            "ipopt": ("qp", "double"), "qp": ("qp", "exact")}

@@ -7,9 +7,11 @@ import random
 import resource
 import sys
 
-import numpy as np
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")  # numpy reads them when it is loaded, Ipopt's process too
 
-import stiction
+import numpy as np  # noqa: E402
+
+import stiction  # noqa: E402
 
 PROGRAM = os.path.join(os.path.dirname(stiction.__file__), "../../../stiction")
 FRICTIONS = ("0", "1/5", "1/2", "1", "2", "5", "10", "mixed")

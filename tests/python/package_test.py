@@ -332,6 +332,8 @@ class Many(unittest.TestCase):
                     self.assertEqual(list(ends[name]), [answer.statistics.get(name, 0) for answer in alone], name)
                 self.assertTrue((ends["seconds"] > 0).all() and ends["seconds"].sum() < 60)
         self.assertIn("cycle", stiction.solve_all(problems, "baraff")["outcome"])
+        unlike = stiction.Problem([[1, "1/3"], [3, 1]], [1, 1], 0, ["bilateral"] * 2)  # as doubles hold it, it has a solution
+        self.assertEqual(list(stiction.solve_all([unlike], "enumerate", "double")["outcome"]), ["no-solution"])
         self.assertEqual(len(stiction.solve_all([])["outcome"]), 0)
 
     def test_answers_are_judged_and_suspicions_told(self):

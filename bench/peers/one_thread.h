@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clocks that show that one thread works, and what is said of it.
+// One thread for every package that is measured, and the clocks that show it.
+//
+// BLAS and OpenMP start as many threads as there are cores, whatever the size of a matrix, unless the
+// environment says otherwise when they are loaded: before main. So the program is started once more with these
+// variables.
 
-#ifndef STICTION_BENCH_PEERS_CLOCKS_H_
-#define STICTION_BENCH_PEERS_CLOCKS_H_
+#ifndef STICTION_BENCH_PEERS_ONE_THREAD_H_
+#define STICTION_BENCH_PEERS_ONE_THREAD_H_
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "corpus/json_text.h"
 
 namespace stiction {
+
+inline constexpr std::array kThreadVariables = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS",
+                                                "BLIS_NUM_THREADS"};
+
+// Returns where all of them are 1; otherwise sets them and starts this program anew with the same arguments.
+// First of all in main. Programs started from this one inherit them. InputError if it cannot be started.
+void RequireOneThread(char** argv);
 
 // s: wall-clock time; processor time of all threads, and of the calling one. On one thread the last two are
 // equal, and no more than the first.
@@ -38,4 +50,4 @@ std::string ClocksText(const Clocks& clocks);
 
 }  // namespace stiction
 
-#endif  // STICTION_BENCH_PEERS_CLOCKS_H_
+#endif  // STICTION_BENCH_PEERS_ONE_THREAD_H_

@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/peers/clocks.h"
+#include "bench/peers/one_thread.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
-#include "bench/one_thread.h"
+#include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/stopwatch.h"
 
 namespace stiction {
+namespace {
+
+bool IsOne(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && std::string_view(value) == "1";
+}
+
+}  // namespace
+
+void RequireOneThread(char** argv) {
+  if (std::all_of(kThreadVariables.begin(), kThreadVariables.end(), IsOne)) return;
+  for (const char* variable : kThreadVariables) setenv(variable, "1", 1);
+  execv("/proc/self/exe", argv);
+  throw InputError(fmt::format("{}: cannot be started anew: {}", argv[0], std::strerror(errno)));
+}
 
 Clocks& Clocks::operator+=(const Clocks& other) {
   wall += other.wall;
