@@ -48,7 +48,7 @@ struct ReplayOptions : Wanted {
   bool fractions = false;  // for people, in full
   std::string record, html, svg;
 
-  PathOptions path() const { return {method, policy, options.limits}; }
+  PathOptions path() const { return {method, policy, request.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
 

@@ -234,7 +234,7 @@ TEST_CASE("filtered: floats of 512 bits decide what double-doubles leave open, a
     CHECK(verdict.statistics == exact.statistics);
     CHECK(verdict.start == exact.start);
     CHECK(verdict.period == exact.period);
-    const InexactAnswer path = RunEnclosed("baraff", problem, {}, rung, true);
+    const InexactAnswer path = RunEnclosed("baraff", problem, {.trace = true}, rung);
     CHECK(path.outcome == exact.outcome);
     CHECK(static_cast<std::int64_t>(path.pivots.size()) == exact.statistics.steps);
   }

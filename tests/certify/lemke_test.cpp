@@ -71,13 +71,13 @@ void CheckPoints(const ExactProblem& problem, const Trace<Rational>& trace) {
 
 void CheckTrace(const ExactProblem& problem) {
   LemkeAlgorithm<Rational> lemke;
-  const Verdict alone = lemke.Run(problem);
+  const RunEnd<> alone = lemke.Run(problem);
   Trace<Rational> trace;
-  const Verdict verdict = lemke.Run(problem, &trace);
+  const RunEnd<> verdict = lemke.Run(problem, &trace);
   CHECK(verdict.outcome == alone.outcome);
   CHECK(verdict.statistics == alone.statistics);
   const bool ray = verdict.outcome == Outcome::kRay;
-  REQUIRE(trace.pivots.size() == static_cast<std::size_t>(verdict.statistics.pivots) + ray);
+  REQUIRE(trace.pivots.size() == static_cast<std::size_t>(verdict.statistics[Counter::kPivots]) + ray);
   CheckBases(problem, trace);
   CheckPoints(problem, trace);
   if (trace.pivots.empty()) return;

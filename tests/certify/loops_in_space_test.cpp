@@ -166,7 +166,7 @@ TEST_CASE("loops in space: a run that ends is not proved to loop") {
   ExactProblem problem = OfStates();
   for (auto& contact : problem.contacts) contact.mu = Rational(1, 100);
   for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
-    CHECK(RunIntervalsInSpace(problem, {WithSlip(slip), {}, {}}).outcome == Outcome::kSolved);
+    CHECK(RunIntervalsInSpace(problem, {.policy = WithSlip(slip)}).outcome == Outcome::kSolved);
     CHECK_FALSE(ProveLoopInSpace(problem, WithSlip(slip), {}).has_value());
   }
 }

@@ -30,17 +30,6 @@ ExactProblem Turned(ExactProblem problem, const Dial& dial) {
   return problem;
 }
 
-try {
-  const Solution solution = SolveIn(problem, request);
-  if (solution.outcome() != Outcome::kSolved) return;
-  ++count.solved;
-  INFO(facts.name << " " << Name(arithmetic) << " in dimension " << problem.dimension);
-  CHECK(FaultOf(problem, request, solution) == "");
-} catch (const InputError&) {  // out of range; or rounded, and no longer semidefinite (qp)
-  ++count.refused;
-}
-}
-
 ExactProblem InSpace(const ExactProblem& planar, std::uint64_t seed) {
   Choices choices(seed);
   const int contacts = static_cast<int>(planar.contacts.size()), rows = 3 * contacts;

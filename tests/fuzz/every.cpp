@@ -71,9 +71,9 @@ void TakeMethods(const ProblemFile& file, const std::string& source) {
       wanted.arithmetic = Name(static_cast<Arithmetic>(a));
       wanted.request.limits = kLimits;
       Unrefused([&] {
-        Request request = RequestOf(wanted, file.problem, source);
-        request.factors = file.factors ? &*file.factors : nullptr;
-        const Solution solution = SolveAsked(file.problem, request, source);
+        const Request request = RequestOf(wanted, file.problem, source);
+        const Solution solution =
+            SolveAsked(file.problem, request, source, file.factors ? &*file.factors : nullptr);
         RequireJson(SolutionToJson(solution, file.problem.dimension),
                     fmt::format("{} over {}", wanted.method, wanted.arithmetic));
         return true;

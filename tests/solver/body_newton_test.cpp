@@ -61,7 +61,7 @@ TEST_CASE("body newton: from a solution it factors nothing, and stays there") {
     const Eigen::VectorXd f = method.f();
     const RunEnd<> again = method.Run(problem, &f);
     CHECK(again.outcome == Outcome::kSolved);
-    CHECK(again.statistics.factorizations == 0);
+    CHECK(again.statistics[Counter::kFactorizations] == 0);
     CHECK(method.f() == f);
   }
   CHECK(solved > 30);

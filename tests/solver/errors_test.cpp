@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "certify/exact/verify_solution.h"
 #include "tests/support.h"
 
 namespace stiction {
