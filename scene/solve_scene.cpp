@@ -5,6 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/numeric/body_newton.h"
+#include "solver/numeric/coulomb.h"
+#include "solver/numeric/fast.h"
+#include "solver/numeric/proximal.h"
 #include "solver/problem/lenient.h"
 #include "solver/problem/pressing.h"
 #include "solver/problem/reduction.ipp"
@@ -12,6 +16,9 @@
 
 namespace stiction {
 namespace {
+
+constexpr double kProximalAim = 1e-13;     // a residual beyond which proximal points gain nothing
+constexpr double kCoulombResidual = 1e-7;  // of problems in space
 
 constexpr double kProximal = 1e-9;  // of the largest A_ii; well above the tolerance of pivots, 1e-11
 constexpr int kProximalPoints = 3;
@@ -85,23 +92,66 @@ Tolerances ForReduction(Tolerances tolerances, int dimension) {
 
 }  // namespace
 
-// The order is that of the turns.
-const SceneSolver::Turn SceneSolver::kTurns[] = {
-    {2, true, &SceneSolver::Cells},     {2, true, &SceneSolver::NearCells}, {2, true, &SceneSolver::Proximal},
-    {2, true, &SceneSolver::Complete},  {3, true, &SceneSolver::Coulomb},   {2, false, &SceneSolver::Complete},
-    {2, false, &SceneSolver::Proximal},
+// The order is that of the turns; the methods keep their memory.
+class SceneSolver::Methods {
+ public:
+  Methods() : proximal_({}, kProximalAim), coulomb_({.residual = kCoulombResidual}) {}
+
+  SceneAnswer Solve(const ContactProblem<double>& problem);
+  SceneAnswer Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start);
+
+ private:
+  using Dense = ContactProblem<double>;
+
+  // A method, and whose turn it is.
+  struct Turn {
+    int dimension;
+    bool friction;
+    bool (Methods::*run)(const Dense&, SceneAnswer&);
+  };
+  static const Turn kTurns[];
+
+  SceneAnswer SolveScaled(const Dense& problem);
+  // error_of(f): by which forces are taken where no method ends in a solution.
+  template <class Error>
+  bool TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of);
+  bool GuessCells(const Dense& problem, const std::vector<Cell>& guess);
+
+  bool Cells(const Dense& problem, SceneAnswer& answer);
+  bool NearCells(const Dense& problem, SceneAnswer& answer);
+  bool Proximal(const Dense& problem, SceneAnswer& answer);
+  bool RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer);
+  bool Complete(const Dense& problem, SceneAnswer& answer);
+  bool Coulomb(const Dense& problem, SceneAnswer& answer);
+
+  FastSolver<double> fast_;
+  ProximalNewton<double> proximal_;
+  CoulombSolver<double> coulomb_;
+  BodyNewton<double> bodies_;
 };
 
-SceneSolver::SceneSolver() : proximal_({}, kProximalAim), coulomb_({.residual = kCoulombResidual}) {}
+const SceneSolver::Methods::Turn SceneSolver::Methods::kTurns[] = {
+    {2, true, &Methods::Cells},     {2, true, &Methods::NearCells}, {2, true, &Methods::Proximal},
+    {2, true, &Methods::Complete},  {3, true, &Methods::Coulomb},   {2, false, &Methods::Complete},
+    {2, false, &Methods::Proximal},
+};
 
-SceneAnswer SceneSolver::Solve(const Dense& problem) {
+SceneSolver::SceneSolver() : methods_(std::make_unique<Methods>()) {}
+SceneSolver::~SceneSolver() = default;
+
+SceneAnswer SceneSolver::Solve(const ContactProblem<double>& problem) { return methods_->Solve(problem); }
+SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
+  return methods_->Solve(problem, start);
+}
+
+SceneAnswer SceneSolver::Methods::Solve(const Dense& problem) {
   const RowScale scale = FindScale(problem);
   SceneAnswer answer = SolveScaled(Scaled(problem, scale));
   ScaleBy(answer.f, scale.f);
   return answer;
 }
 
-SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
+SceneAnswer SceneSolver::Methods::SolveScaled(const Dense& problem) {
   SceneAnswer answer;
   fast_.request().noise = NoiseOf(problem);  // of the whole: what is reduced has it, too
   if (!Reduction<double>::Concerns(problem)) {
@@ -125,7 +175,7 @@ SceneAnswer SceneSolver::SolveScaled(const Dense& problem) {
   return answer;
 }
 
-SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
+SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
   SceneAnswer answer;
   if (start != nullptr && IsAtRestWithoutForces(problem)) {
     answer.f.setZero(problem.rows());
@@ -147,7 +197,7 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
 }
 
 template <class Error>
-bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of) {
+bool SceneSolver::Methods::TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of) {
   const bool friction = HasFriction(problem);
   if (!friction && problem.dimension == 3) {
     Dense planar = problem;  // one row each, as in the plane
@@ -177,18 +227,18 @@ bool SceneSolver::TryInTurn(const Dense& problem, SceneAnswer& answer, Error err
 
 // ---- Methods ---------------------------------------------------------------------------------
 
-bool SceneSolver::GuessCells(const Dense& problem, const std::vector<Cell>& guess) {
+bool SceneSolver::Methods::GuessCells(const Dense& problem, const std::vector<Cell>& guess) {
   fast_.drives = false;
   return fast_.Run(problem, guess).outcome == Outcome::kSolved;
 }
 
-bool SceneSolver::Cells(const Dense& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::Cells(const Dense& problem, SceneAnswer& answer) {
   const bool solved = GuessCells(problem, {});
   answer.f = fast_.f();
   return solved;
 }
 
-bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::NearCells(const Dense& problem, SceneAnswer& answer) {
   if (problem.rows() == 0) return false;
   const double eps = kProximal * problem.A.diagonal().maxCoeff();
   Dense near = problem;
@@ -209,18 +259,18 @@ bool SceneSolver::NearCells(const Dense& problem, SceneAnswer& answer) {
   return residual <= ResidualOf<double>(fast_.request());
 }
 
-bool SceneSolver::Proximal(const Dense& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::Proximal(const Dense& problem, SceneAnswer& answer) {
   return RunProximal({2, problem.contacts, problem.A.sparseView(), problem.b}, answer);
 }
 
-bool SceneSolver::RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer) {
   const bool solved = proximal_.Run(problem).outcome == Outcome::kSolved;
   answer.f = proximal_.f();
   answer.counters[Counter::kSparse] += solved;
   return solved;
 }
 
-bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::Complete(const Dense& problem, SceneAnswer& answer) {
   fast_.drives = true;
   const RunEnd<> verdict = fast_.Run(problem);
   answer.counters[Counter::kFallbacks] += verdict.statistics[Counter::kFallbacks];
@@ -228,7 +278,7 @@ bool SceneSolver::Complete(const Dense& problem, SceneAnswer& answer) {
   return verdict.outcome == Outcome::kSolved;
 }
 
-bool SceneSolver::Coulomb(const Dense& problem, SceneAnswer& answer) {
+bool SceneSolver::Methods::Coulomb(const Dense& problem, SceneAnswer& answer) {
   const RunEnd<> verdict = coulomb_.Run(problem);
   answer.counters[Counter::kFallbacks] += verdict.statistics[Counter::kPolygons] > 0;
   answer.f = coulomb_.f();

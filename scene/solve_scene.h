@@ -29,13 +29,10 @@
 #ifndef STICTION_SCENE_SOLVE_SCENE_H_
 #define STICTION_SCENE_SOLVE_SCENE_H_
 
-#include <cstdint>
+#include <memory>
 
-#include "solver/numeric/body_newton.h"
-#include "solver/numeric/coulomb.h"
-#include "solver/numeric/fast.h"
-#include "solver/numeric/proximal.h"
 #include "solver/problem/answer.h"
+#include "solver/problem/factored.h"
 
 namespace stiction {
 
@@ -47,10 +44,6 @@ namespace stiction {
 // is accepted to this one, and counted.
 inline constexpr double kLooseResidual = 1e-5;
 
-inline constexpr double kProximalAim = 1e-13;  // a residual beyond which proximal points gain nothing
-
-inline constexpr double kCoulombResidual = 1e-7;  // of problems in space
-
 // solved or undecided; f is of no meaning if not solved. Counters: fallbacks, runs of complete driving; loose,
 // solved to kLooseResidual only; sparse, solved in the space of bodies; warm, from given forces.
 using SceneAnswer = Answer<double>;
@@ -59,6 +52,7 @@ using SceneAnswer = Answer<double>;
 class SceneSolver {
  public:
   SceneSolver();
+  ~SceneSolver();
 
   // Of contacts of any kinds.
   SceneAnswer Solve(const ContactProblem<double>& problem);
@@ -66,33 +60,8 @@ class SceneSolver {
   SceneAnswer Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start = nullptr);
 
  private:
-  using Dense = ContactProblem<double>;
-
-  // A method, and whose turn it is.
-  struct Turn {
-    int dimension;
-    bool friction;
-    bool (SceneSolver::*run)(const Dense&, SceneAnswer&);
-  };
-  static const Turn kTurns[];
-
-  SceneAnswer SolveScaled(const Dense& problem);
-  // error_of(f): by which forces are taken where no method ends in a solution.
-  template <class Error>
-  bool TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of);
-  bool GuessCells(const Dense& problem, const std::vector<Cell>& guess);
-
-  bool Cells(const Dense& problem, SceneAnswer& answer);
-  bool NearCells(const Dense& problem, SceneAnswer& answer);
-  bool Proximal(const Dense& problem, SceneAnswer& answer);
-  bool RunProximal(const SparseContactProblem<double>& problem, SceneAnswer& answer);
-  bool Complete(const Dense& problem, SceneAnswer& answer);
-  bool Coulomb(const Dense& problem, SceneAnswer& answer);
-
-  FastSolver<double> fast_;
-  ProximalNewton<double> proximal_;
-  CoulombSolver<double> coulomb_;
-  BodyNewton<double> bodies_;
+  class Methods;
+  std::unique_ptr<Methods> methods_;
 };
 
 }  // namespace stiction

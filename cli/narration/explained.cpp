@@ -171,7 +171,8 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
   if (!handled) return;
   const Json& loop = found["policies"]["loops"];
   if (loop.is_null()) return;
-  const auto radius = RadiusOfLoop(problem, {.policy = ParsePolicy(loop["policy"].get<std::string>()), .limits = o.limits});
+  const auto radius =
+      RadiusOfLoop(problem, {.policy = ParsePolicy(loop["policy"].get<std::string>()), .limits = o.limits});
   found["radius"] = radius ? Json(ToString(*radius)) : Json();
 }
 

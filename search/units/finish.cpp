@@ -187,7 +187,8 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
   }
   Decided existence = DecideExistenceOf(small, finding.signature, limits, cancelled);
   finding.minimized_existence = std::move(existence.certificate);
-  facts["minimized"] = FactsOf(small, RunExact(small, {.policy = policy, .limits = limits}), grid, found.methods);
+  facts["minimized"] =
+      FactsOf(small, RunExact(small, {.policy = policy, .limits = limits}), grid, found.methods);
   facts["minimized"]["existence"] = std::move(existence.facts);
   if (outcome == Outcome::kCycle && facts["minimized"]["safe"] == true) finding.kind = kSafeCycle;
 }
@@ -245,7 +246,8 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
                                      const std::function<bool()>& cancelled, const ExactMethods& methods) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
   if (file.problem.dimension == 3) return FinishInSpace(finding, file.problem, limits, cancelled, methods);
-  Unfinished found{file.problem, methods.published(file.problem, {.policy = ParsePolicy(finding.policy), .limits = limits}),
+  Unfinished found{file.problem,
+                   methods.published(file.problem, {.policy = ParsePolicy(finding.policy), .limits = limits}),
                    Json::object(), file.scene.has_value(), methods};
   Finding finished = finding;
   finished.done = true;

@@ -150,7 +150,8 @@ class Minimizer {
 
   std::optional<std::string> LacksInSpace(const ExactProblem& candidate) const {
     for (const Policy& policy : options_.policies) {
-      const InexactAnswer answer = RunIntervalsInSpace(candidate, {.policy = policy, .limits = options_.limits});
+      const InexactAnswer answer =
+          RunIntervalsInSpace(candidate, {.policy = policy, .limits = options_.limits});
       if (answer.outcome != options_.keep) return EndsElsewhere(policy, answer.outcome);
       if (options_.period && answer.period != *options_.period) return "it has another period";
     }

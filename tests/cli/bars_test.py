@@ -79,7 +79,7 @@ class Rules(cli.TestCase):
         sources = {name: bars.bare(bars.text(name)) for name in bars.files() if name.endswith((".h", ".ipp", ".cpp"))}
         self.assertIn("ContactProblem", names(bars.problem_types(sources)))
         self.assertIn("certify/request", [one.split(":")[0] for one in bars.cascades(sources)])
-        self.assertIn("SolveOptions", names(bars.options_of_solving(sources)))
+        self.assertIn("Request", names(bars.options_of_solving(sources)))
         self.assertIn("certify/exact/verify_solution.cpp", [one.split(":")[0] for one in bars.judges(sources)])
         self.assertIn("check_in_space", names(bars.judges_in_python("certify/check_certificate.py")))
 

@@ -156,7 +156,8 @@ class Live(cli.TestCase):
 
     def assert_agree(self, run, other, case):
         """In the keys that a page reads, and in the forces at the end; over doubles but for rounding."""
-        self.assertEqual((list(run), list(run["replay"])), (list(other), list(other["replay"])), case)
+        keys = [[key for key in one["replay"] if key != "suspected"] for one in (run, other)]  # nothing runs again in a page
+        self.assertEqual((list(run), keys[0]), (list(other), keys[1]), case)
         forces, others = ([x for pivot in one["replay"]["pivots"][-1:] for x in pivot["f"]] for one in (run, other))
         for x, y in zip(forces, others, strict=True):
             tolerance = 0 if isinstance(x, str) else 1e-9

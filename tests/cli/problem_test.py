@@ -161,7 +161,7 @@ class Solve(cli.TestCase):
 
     def test_the_fast_method(self):
         file = self.file("c.json", cli.REFERENCE)
-        for arithmetic in [[], ["--arithmetic", "float"], ["--arithmetic"]]:
+        for arithmetic in [[], ["--arithmetic", "float"], ["--arithmetic", "quad"]]:
             with self.subTest(arithmetic=arithmetic):
                 result = self.succeeds("solve", file, "--json", "--method", "fast", *arithmetic).json()
                 self.assertEqual((result["outcome"], result["word"]), ("solved", "S-"))

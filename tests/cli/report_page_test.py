@@ -223,7 +223,7 @@ class Page(cli.TestCase):
             self.assertGreater(len(files), 3)
             for link in files:
                 self.assertTrue((folder / link).is_file(), link)
-        again = re.search(r"stiction (report --bench .*) -o again", page)[1].split()
+        again = re.search(r"run (report --bench .*) -o again", page)[1].split()
         self.succeeds(*again, "-o", self.folder / "again", cwd=out)
         self.assertEqual((self.folder / "again/index.html").read_bytes(), (out / "index.html").read_bytes())
         self.refuses("report", "--bench", bench, says="expected a folder to write")

@@ -77,7 +77,7 @@ TEST_CASE("measured: the page counts rounded numbers apart from exact ones, and 
   for (const char* said :
        {"1 method over 2 arithmetics, on 1 kind of problems",
         "Over rounded numbers of 48 runs 5 were wrong, 1 of them silently",
-        "of 24 runs 0 were wrong, 0 of them silently", "stiction report --bench bench/trade.csv -o again"}) {
+        "of 24 runs 0 were wrong, 0 of them silently", "./run report --bench bench/trade.csv -o again"}) {
     INFO(said);
     CHECK((page.find(said) != std::string::npos));
   }
