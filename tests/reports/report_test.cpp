@@ -270,7 +270,7 @@ std::string TextOf(std::string page) {
                                                                   {"<style>", "</style>"},
                                                                   {kDataBegin, "</script>"},
                                                                   {kLinesBegin, "</script>"},
-                                                                  {"<script>", "</script>"}}) {
+                                                                  {"<script type=\"module\">", "</script>"}}) {
     if (begin == kLinesBegin && !Has(page, begin)) continue;  // of findings alone
     const std::string inside = Between(page, begin, end);
     page.erase(page.find(begin), begin.size() + inside.size() + end.size());
