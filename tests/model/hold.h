@@ -57,11 +57,24 @@ struct Asked {
   }
 };
 
-// Of problems that have a solution, how many a method solves in an arithmetic.
+// Of problems that have a solution, how many a method solves in an arithmetic, by both their names.
 struct Share {
   int solved = 0, of = 0;
 };
 using Shares = std::map<std::string, Share>;
+
+// Right answers are not enough: each method solves most problems that can be solved. Not those whose signs stay
+// open over intervals, nor enumeration in space, which refutes.
+inline std::string FaultOfShares(const Shares& shares) {
+  constexpr int kFew = 20;
+  constexpr double kLeast = 0.5;
+  for (const auto& [name, share] : shares) {
+    const bool may_be_open = name.find("interval") != name.npos || name.starts_with("enumerate over exact");
+    if (share.of >= kFew && !may_be_open && share.solved < kLeast * share.of)
+      return fmt::format("share: {} solves {} of {}", name, share.solved, share.of);
+  }
+  return "";
+}
 
 inline bool HasFriction(const ExactProblem& problem) {
   return std::ranges::any_of(problem.contacts, [](const auto& contact) { return contact.mu > 0; });

@@ -36,10 +36,7 @@ TEST_CASE("model: nothing false is said of problems drawn at random, nor of what
                                       << " STICTION_MODEL_FIRST=" << index
                                       << " build/release/tests/test_model");
   }
-  if (std::getenv("TALLY"))
-    for (const auto& [name, share] : shares)
-      std::printf("%-40s %6d %6d %.4f\n", name.c_str(), share.solved, share.of,
-                  double(share.solved) / share.of);
+  CHECK(FaultOfShares(shares) == "");
 }
 
 // ---- Campaigns ---------------------------------------------------------------------------------------
@@ -124,8 +121,12 @@ TEST_CASE("model: an answer that proves a falsehood, decides nothing, or is of a
   CHECK(kind_of(truth, none, Arithmetic::kDouble) == "falsehood");
   ExactAnswer open;
   open.method = "complete";
-  CHECK(kind_of(truth, open, Arithmetic::kExact) == "undecided");
+  CHECK(kind_of(truth, open, Arithmetic::kExact) == "open");
   CHECK(kind_of(truth, open, Arithmetic::kInterval) == "");
+  open.outcome = Outcome::kRay;
+  CHECK(kind_of(truth, open, Arithmetic::kExact) == "undecided");
+  open.ray = Vector({1, 1});
+  CHECK(kind_of(truth, open, Arithmetic::kExact) == "ray");
   ExactAnswer right = open;
   right.outcome = Outcome::kSolved;
   right.f = truth.f;
@@ -219,6 +220,13 @@ TEST_CASE("model: factors, a scene, an export and forces of another problem are 
   CHECK(FaultOfIslands(drawn.problem, full, minimal, forces) == "");
   forces[0] *= Rational(2);
   CHECK(Kind(FaultOfIslands(drawn.problem, full, minimal, forces)) == "scene");
+}
+
+TEST_CASE("model: a method that solves few of what can be solved is seen") {
+  Shares shares = {{"fast over double in 2", {30, 40}}, {"lemke over interval in 2", {0, 40}}};
+  CHECK(FaultOfShares(shares) == "");
+  shares["fast over double in 2"].solved = 15;
+  CHECK(Kind(FaultOfShares(shares)) == "share");
 }
 
 TEST_CASE("model: choices are shrunk until no smaller or fewer ones keep the fault") {
