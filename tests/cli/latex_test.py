@@ -25,11 +25,6 @@ def cells(path):
     return [line[:-3].split(" & ") for line in lines]
 
 
-def columns(path):
-    head, *lines = (line.split(" ") for line in path.read_text().splitlines())
-    return [dict(zip(head, map(float, line), strict=True)) for line in lines]
-
-
 class Latex(cli.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -94,28 +89,42 @@ class Latex(cli.TestCase):
                          [[int(row[name]) for name in names] for row in self.table("agreement.csv")])
 
     def test_figures(self):
+        def drawn(figure):
+            return re.search(r"\\pgfplotsinvokeforeach\{(.*)\}\{", figure)[1].split(",")
+
+        def columns(figure):
+            return set(re.findall(r"\\thisrow\{(\w+)\}", figure)) | set(re.findall(r"\b[xy]=([\w#]+)", figure))
+
         figure = (self.report / "latex/figure-loops.tex").read_text()
-        generators = re.findall(r"\\addlegendentry\{(.*)\}", figure)
-        self.assertEqual(generators, ["conditioned", "near-degenerate"])
+        self.assertIn("\\legend{{conditioned},{near-degenerate}}\n", figure)
+        self.assertEqual({file.name for file in (self.report / "latex").glob("loops-*.csv")},
+                         {f"loops-{i}.csv" for i in drawn(figure)})
         found = self.loops()
-        for row in columns(self.report / "latex/loops.dat"):
-            for i, generator in enumerate(generators, 1):
+        for i, generator in zip(drawn(figure), ("conditioned", "near-degenerate"), strict=True):
+            rows = self.table(f"latex/loops-{i}.csv")
+            self.assertLessEqual(columns(figure), set(rows[0]))
+            self.assertEqual({int(row["contacts"]) for row in rows}, {2, 3})
+            for row in rows:
                 loops, runs = found[generator, "paper", int(row["contacts"])]
-                if loops == 0:
-                    self.assertNotEqual(row[f"g{i}"], row[f"g{i}"], "expected nan")
-                    continue
-                self.assertAlmostEqual(row[f"g{i}"], 1e6 * loops / runs, delta=1e-3)
-                self.assertTrue(0 < row[f"g{i}minus"] < row[f"g{i}"] and row[f"g{i}plus"] > row[f"g{i}minus"])
-                self.assertIn(f"y=g{i}, y error minus=g{i}minus, y error plus=g{i}plus", figure)
+                self.assertEqual((int(row["loops"]), int(row["runs"])), (loops, runs))
+                rate, low, high = (float(row[name]) for name in ("rate", "low", "high"))
+                self.assertAlmostEqual(rate, 1e6 * loops / runs, delta=1e-5 * rate)
+                self.assertTrue(low <= rate < high and (low == 0) == (loops == 0), row)
+        figure = (self.report / "latex/figure-steps.tex").read_text()
+        self.assertEqual(columns(figure), {"steps", "c#1"})
+        drawn_steps = {f"c{n}": int(n) for n in drawn(figure)}
         steps = {}
         for row in self.table("steps.csv"):
             if row["policy"] == "paper":
-                key = (int(row["steps"]), f"c{row['contacts']}")
+                key = (int(row["steps"]), int(row["contacts"]))
                 steps[key] = steps.get(key, 0) + int(row["problems"])
-        runs = {name: sum(n for (_, c), n in steps.items() if c == name) for name in ("c2", "c3")}
-        for row in columns(self.report / "latex/steps.dat"):
-            for name in runs:
-                self.assertAlmostEqual(row[name], steps.get((int(row["steps"]), name), 0) / runs[name], delta=1e-8)
+        rows = self.table("latex/steps.csv")
+        self.assertEqual(set(rows[0]), {"steps", *drawn_steps})
+        self.assertEqual(set(drawn_steps.values()), {2, 3})
+        for name, contacts in drawn_steps.items():
+            runs = sum(n for (_, c), n in steps.items() if c == contacts)
+            for row in rows:
+                self.assertAlmostEqual(float(row[name]), steps.get((int(row["steps"]), contacts), 0) / runs, delta=1e-6)
 
     def test_the_document_compiles(self):
         if shutil.which("pdflatex") is None:

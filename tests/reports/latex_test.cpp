@@ -26,7 +26,7 @@ TEST_CASE("latex: every special character is escaped, brackets stand in braces")
 
 TEST_CASE("latex: names of a store are text in tables, figures and the citation") {
   const Scratch scratch;
-  const std::string name = R"(\input{/etc/passwd} 100% $_#&)";
+  const std::string name = R"(\input{/etc/passwd} 100% $_#&, more)";
   Store store(scratch / "s.store", {"{}", 7, R"(["paper"])"});
   Record record;
   Tally& tally = record.tallies[{name, 2, "paper"}];
@@ -43,7 +43,7 @@ TEST_CASE("latex: names of a store are text in tables, figures and the citation"
     CHECK_THAT(text, !Contains("100% ") && !Contains("$_"));
   }
   CHECK_THAT(files.at("latex/loops.tex"), Contains(LatexText(name) + " & paper & double & 2 & 10 & 1 & "));
-  CHECK_THAT(files.at("latex/figure-loops.tex"), Contains("\\addlegendentry{" + LatexText(name) + "}"));
+  CHECK_THAT(files.at("latex/figure-loops.tex"), Contains("\\legend{{" + LatexText(name) + "}}"));
   CHECK_THAT(files.at("citation.bib"), Contains("version " + LatexText(name) + "}"));
 }
 
