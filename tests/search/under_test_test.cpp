@@ -10,9 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <regex>
 
-#include "corpus/input_file.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
@@ -481,34 +479,6 @@ TEST_CASE("under test: a program has the minimized problem, and the bounds and u
   CHECK_THAT(text(SolverLaw::kCoulomb, "c", "a.b.c"), Contains(" -o a.b "));
   CHECK_THAT(text(SolverLaw::kCoulomb, "c", ".c"), Contains(" -o .c-program "));
   CHECK_THAT(text(SolverLaw::kCoulomb, "c", "shown"), Contains(" -o shown-program "));
-}
-
-TEST_CASE("under test: programs that are kept are written of their problems again, to the byte") {
-  const auto folder = std::filesystem::path(STICTION_SCENES).parent_path() / "peers/minimized";
-  const std::regex head(R"(/\* ((leak|not-finite|silent-wrong|refused-solvable)-(.*-)?\d+c): (\S+) (\S+) )");
-  int programs = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".cc") continue;
-    const std::string text = ReadText(entry.path()), file = entry.path().filename();
-    CAPTURE(file);
-    std::smatch said, worst;
-    REQUIRE(std::regex_search(text, said, head));
-    const std::string what = said[3], solver = said[4];
-    Finding finding;
-    finding.kind = said[2], finding.signature = said[1];
-    finding.minimized = ReadText(std::filesystem::path(entry.path()).replace_extension(".json"));
-    finding.facts = fmt::format(R"({{"found": {{"what": "{}"}}}})", what.substr(0, what.rfind('-')));
-    const bool frictionless = solver.ends_with("-frictionless") || solver.ends_with("-lemke");
-    const bool has_accuracy = std::regex_search(text, worst, std::regex("worst = (\\S+);"));
-    const std::string package = file.substr(0, file.find('-'));
-    const SolverLaw law = frictionless           ? SolverLaw::kFrictionless
-                          : package == "siconos" ? SolverLaw::kCoulomb
-                                                 : SolverLaw::kFindex;
-    const SolverUnderTest about = {solver, said[5], law, has_accuracy ? worst.str(1) : ""};
-    CHECK(ReproducerOf(finding, about, package, file) == text);
-    ++programs;
-  }
-  CHECK(programs > 20);
 }
 
 TEST_CASE("under test: a scene is made simpler while the solver fails alike on its problem") {
