@@ -14,6 +14,7 @@
 #include "bench/peers/tables.h"
 #include "bench/progress.h"
 #include "bench/structure.h"
+#include "certify/exact/answer_json.h"
 #include "corpus/json.h"
 #include "corpus/order_statistics.h"
 #include "search/generators/choices.h"
