@@ -95,23 +95,25 @@ std::vector<std::string_view> AllOverDoubles() {
   return names;
 }
 
-// A problem as every arithmetic gets it; empty where it does not hold a number.
-struct GivenProblem {
-  std::optional<ExactProblem> as_it_is, in_double = In<double>(), in_float = In<float>();
+// A problem as every arithmetic gets it, by that; empty where it does not hold a number.
+using Given = std::array<std::optional<ExactProblem>, kArithmeticCount>;
 
-  template <class Scalar>
-  std::optional<ExactProblem> In() const {
-    try {
-      return Unrounded(Rounded<Scalar>(*as_it_is));
-    } catch (const RangeError&) {
-      return std::nullopt;
-    }
+template <class Scalar>
+std::optional<ExactProblem> RoundedOnce(const ExactProblem& problem) {
+  try {
+    return Unrounded(Rounded<Scalar>(problem));
+  } catch (const RangeError&) {
+    return std::nullopt;
   }
-  const std::optional<ExactProblem>& To(Arithmetic arithmetic) const {
-    if (arithmetic == Arithmetic::kExact) return as_it_is;
-    return arithmetic == Arithmetic::kFloat ? in_float : in_double;
-  }
-};
+}
+
+Given GivenOf(const ExactProblem& problem) {
+  Given given;
+  given.fill(RoundedOnce<double>(problem));
+  given[static_cast<int>(Arithmetic::kExact)] = problem;
+  given[static_cast<int>(Arithmetic::kFloat)] = RoundedOnce<float>(problem);
+  return given;
+}
 
 std::optional<std::string> MissOf(const ExactProblem& given, const ExactVector& f, FrictionLaw law,
                                   const Gate& gate) {
@@ -146,8 +148,8 @@ Json WrongJson(const GateCell& cell, std::int64_t index, const std::string& miss
 }
 
 // One problem in one cell.
-void RunOne(const GivenProblem& problem, std::int64_t index, GateCell& cell, Json& wrong) {
-  const std::optional<ExactProblem>& given = problem.To(cell.arithmetic);
+void RunOne(const Given& problem, std::int64_t index, GateCell& cell, Json& wrong) {
+  const std::optional<ExactProblem>& given = problem[static_cast<int>(cell.arithmetic)];
   if (!given) {
     ++cell.refused;
     return;
@@ -282,7 +284,7 @@ void RunRounds(const std::vector<Source>& sources, std::int64_t problems, std::u
     for (const Source& source : sources) {
       const std::int64_t every = source.is_large ? kLargeEvery : 1;
       if (round % every != 0 || place >= problems) continue;
-      const GivenProblem problem{source.make(seed, round)};
+      const Given problem = GivenOf(source.make(seed, round));
       Json wrong = Json::array();
       for (GateCell& cell : counts.methods[static_cast<std::size_t>(round / every) % counts.methods.size()]) {
         cell.source = &source;
@@ -340,7 +342,7 @@ int BenchGate(const BenchOptions& o) {
     std::vector<GateCell> of_source =
         CellsOf(source, dimension, AllOverDoubles(), {kFloat, kDouble, kQuad, kFiltered});
     for (std::int64_t index = 0; index < problems; ++index) {
-      const GivenProblem problem{source.make(o.seed, index)};
+      const Given problem = GivenOf(source.make(o.seed, index));
       for (GateCell& cell : of_source) RunOne(problem, index, cell, wrong);
       progress::Done();
     }

@@ -137,7 +137,7 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   const auto scene = ReadTouchingScene(o, file);
   Json rows = Json::array();
   bool all = true;
-  for (const Policy& policy : PoliciesAsked(o.policy, file.problem.dimension)) {
+  for (const Policy& policy : PoliciesAsked(o.policy, file.problem.dimension())) {
     const Request request = {.policy = policy, .limits = o.limits};
     const std::string name = PolicyName(policy);
     const auto radius = RadiusOfLoop(file.problem, request);
@@ -168,7 +168,7 @@ Json AnswerForPrograms(Json answer, const ProblemFile& file) {
   const Json certificate = std::move(answer["certificate"]);
   answer.erase("certificate");
   answer["claim"] = certificate.is_object() ? certificate["claim"] : Json();
-  answer["assumptions"] = FailedAssumptions(file);
+  answer["assumptions"] = FailedAssumptions(file.problem);
   return answer;
 }
 
@@ -205,7 +205,7 @@ int RunCertify(const CertifyOptions& o) {
   if (o.robust) return ShowRadius(o, file);
   ProgressBar bar;
   WantedClaim wanted = o;
-  wanted.factors = file.factors && !o.coq ? &*file.factors : nullptr;
+  wanted.factors = o.coq ? nullptr : file.problem.factors();
   const Json answer = CertificateOf(wanted, file.problem, o.file, Shown(bar));
   bar.Clear();
   const Json& certificate = answer["certificate"];

@@ -16,7 +16,7 @@ struct ExplainVerb : ExplainOptions {
 };
 
 int RunExplain(const ExplainVerb& o) {
-  const Json found = Explained(ReadAnySize(o.file), o);
+  const Json found = Explained(ReadProblem(o.file, kAnyRows), o);
   std::cout << (o.json ? JsonText(found) + "\n" : AsTyped(ExplainedText(found)));
   return kExitDone;
 }

@@ -11,6 +11,7 @@
 #include "cli/shared.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
+#include "corpus/record/asymmetry.h"
 #include "search/campaign.h"
 #include "search/under_test/reproducer.h"
 
@@ -42,22 +43,18 @@ struct FormatsVerb {
 };
 
 int Import(const FormatsVerb& o) {
-  auto read = o.format.empty() ? ReadAnySize(o.file) : Sized(ReadPublished(o.file, o.format));
-  const auto* dense = std::get_if<ProblemFile>(&read);
-  SparseProblem problem = dense != nullptr ? ToSparse(*dense) : std::get<SparseProblem>(read);
-  if (o.symmetrize) {
-    Symmetrize(problem);
-    read = Sized(problem);
-  }
-  WriteText(o.output, std::visit([](const auto& file) { return Print(file); }, read));
+  ProblemFile file = o.format.empty() ? ReadProblem(o.file, kAnyRows) : ReadPublished(o.file, o.format);
+  if (o.symmetrize) Symmetrize(file);
+  WriteText(o.output, Print(file));
+  const AnyProblem& problem = file.problem;
   const Asymmetry asymmetry = LargestAsymmetry(problem);
   SayWhatWasDone(o.output, o.json,
                  fmt::format("{}: {}, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
-                             Counted(static_cast<std::int64_t>(problem.contacts.size()), "contact"),
-                             problem.dimension, ToDouble(asymmetry.difference)),
+                             Counted(static_cast<std::int64_t>(problem.contacts().size()), "contact"),
+                             problem.dimension(), ToDouble(asymmetry.difference)),
                  {{"written", Json::array({o.output})},
-                  {"contacts", problem.contacts.size()},
-                  {"dimension", problem.dimension},
+                  {"contacts", problem.contacts().size()},
+                  {"dimension", problem.dimension()},
                   {"asymmetry", ToString(asymmetry.difference)}});
   return kExitDone;
 }
@@ -81,7 +78,7 @@ int WriteReproducer(const FormatsVerb& o) {
 int Export(const FormatsVerb& o) {
   if (!o.reproducer.empty()) return WriteReproducer(o);
   if (o.format.empty()) throw InputError("export: found neither --format nor --reproducer, expected one");
-  SparseProblem problem = ReadSparseProblem(o.file);
+  const ProblemFile problem = ReadProblem(o.file, kAnyRows);
   const Rounding rounding = o.round ? Rounding::kAllowed : Rounding::kRefused;
   const ExportReport report = WritePublished(problem, o.output, o.format, o.storage, rounding);
   std::string text = fmt::format("{}: {} rounded", o.output, Counted(report.rounded, "number"));

@@ -99,7 +99,7 @@ int RunMinimize(const MinimizeVerb& o) {
   ProblemFile file = ReadProblem(o.file);
   const Policy policy = ParsePolicy(o.policy);
   const Request published{.policy = policy, .limits = o.limits};
-  const bool in_space = file.problem.dimension == 3;
+  const bool in_space = file.problem.dimension() == 3;
   if (in_space) RequireForSpace(o, policy);
   const ExactRun run = in_space ? ExactRun() : RunExact(file.problem, published);
   const Outcome outcome = in_space ? RunIntervalsInSpace(file.problem, published).outcome : run.verdict.outcome;
@@ -125,7 +125,6 @@ int RunMinimize(const MinimizeVerb& o) {
   const Minimized minimized = Minimize(file.problem, options);
   const Simplicity after = SimplicityOf(minimized.problem);
   file.problem = minimized.problem;
-  file.factors.reset();
   file.origin = Json{{"parent", file.name}, {"minimized", true}};
   if (file.scene) (*file.origin)["scene"] = kSceneOfParent;
   file.scene.reset();

@@ -73,8 +73,8 @@ std::string ToldForPeople(const ReplayOptions& o, const ProblemFile& file, const
       [&](const auto& answer) {
         const std::string reading = o.method == "baraff" ? "policy " + o.policy : "method " + o.method;
         return fmt::format("{}: {}{}, {}, {}\n{}{}{}", file.name,
-                           Counted(static_cast<std::int64_t>(file.problem.contacts.size()), "contact"),
-                           file.problem.dimension == 3 ? " in space" : "", reading, Name(answer.arithmetic),
+                           Counted(static_cast<std::int64_t>(file.problem.contacts().size()), "contact"),
+                           file.problem.dimension() == 3 ? " in space" : "", reading, Name(answer.arithmetic),
                            o.step ? ProblemText(file.problem, o.as()) : "",
                            o.step ? narration.steps : narration.table, WholeEnd(answer, solution));
       },
@@ -230,7 +230,7 @@ void PrintOutcomes(const ReplayOptions& o, const std::vector<Policy>& grid, cons
 
 int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
   const auto by_name = OutcomesOf(o, file.problem, o.file);
-  const std::vector<Policy> grid = GridOf(file.problem.dimension);
+  const std::vector<Policy> grid = GridOf(file.problem.dimension());
   const std::string_view arithmetic = Name(PathRequestOf(o, file.problem, o.file).arithmetic);
   Json outcomes = Json::object(), counts = Json::object(), unexpected = Json::array();
   for (const Policy& policy : grid) {

@@ -128,7 +128,8 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
   ProblemFile file;
   file.name = name;
   file.origin = origin;
-  file.problem.dimension = problem.dimension;
+  ExactProblem unrounded;
+  unrounded.dimension = problem.dimension;
   const auto exact_of = [&name](const char* where, double x) {
     if (std::isfinite(x)) return Rational(x);
     throw InputError(name, where, "a number beyond those that double holds",
@@ -140,15 +141,16 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
     exact.mu = exact_of("mu", contact.mu);
     if (contact.kind == ContactKind::kSliding)
       exact.slip = ExactDirection<Rational>(MakeVector2<Rational>(contact.slip[0], contact.slip[1]));
-    file.problem.contacts.push_back(exact);
+    unrounded.contacts.push_back(exact);
   }
   const int rows = problem.rows();
-  file.problem.A.resize(rows, rows);
-  file.problem.b.resize(rows);
+  unrounded.A.resize(rows, rows);
+  unrounded.b.resize(rows);
   for (int i = 0; i < rows; ++i) {
-    file.problem.b[i] = exact_of("b", problem.b[i]);
-    for (int j = 0; j < rows; ++j) file.problem.A(i, j) = exact_of("A", problem.A(i, j));
+    unrounded.b[i] = exact_of("b", problem.b[i]);
+    for (int j = 0; j < rows; ++j) unrounded.A(i, j) = exact_of("A", problem.A(i, j));
   }
+  file.problem = std::move(unrounded);
   return file;
 }
 

@@ -510,7 +510,7 @@ int RunProblem(const ProblemVerb& o) {
                                         : ExponentialFile(*o.exponential, o.scaled);
   WriteText(o.output, Print(file));
   const Json done = {
-      {"written", Json::array({o.output})}, {"contacts", file.problem.contacts.size()}, {"name", file.name}};
+      {"written", Json::array({o.output})}, {"contacts", file.problem.contacts().size()}, {"name", file.name}};
   if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }

@@ -16,6 +16,8 @@
 #include "certify/request/request.h"
 #include "cli/help.h"
 #include "corpus/json.h"
+#include "corpus/record/asymmetry.h"
+#include "corpus/record/factors.h"
 
 namespace stiction {
 namespace {
@@ -144,29 +146,28 @@ void AddUndecidedRange(Json& failed) {
 }
 
 // What bounds decide of problems too large for exact elimination.
-void AddBoundedAssumptions(const SparseProblem& problem, Json& failed) {
+void AddBoundedAssumptions(const AnyProblem& problem, Json& failed) {
   const CurvatureBounds curvature = BoundCurvature(problem);
   if (curvature.negative) {
-    failed.push_back(FailedSemidefinite(curvature, problem.contacts.size()));
+    failed.push_back(FailedSemidefinite(curvature, problem.contacts().size()));
   } else if (!curvature.least || *curvature.least < 0) {
     failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
   }
   if (problem.rows() > kMostDenseRows || !IsRegularModuloPrime(problem)) AddUndecidedRange(failed);
 }
 
-}  // namespace
+void AddAsymmetry(const AnyProblem& problem, Json& failed) {
+  std::optional<std::pair<int, int>> pair;
+  if (StaysSparse(problem)) {
+    const Asymmetry largest = LargestAsymmetry(problem);
+    if (largest.difference != 0) pair = {largest.i, largest.j};
+  } else {
+    pair = FindAsymmetry(problem.dense().A);
+  }
+  if (pair) failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
+}
 
-Json FailedAssumptions(const ProblemFile& file) {
-  const ExactProblem& problem = file.problem;
-  Json failed = Json::array();
-  if (file.factors && problem.rows() > kExactAssumptionRows) return FailedAssumptions(ToSparse(file));
-  if (const auto pair = FindAsymmetry(problem.A)) {
-    failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
-  }
-  if (problem.rows() > kExactAssumptionRows) {
-    AddBoundedAssumptions(ToSparse(file), failed);
-    return failed;
-  }
+void AddExactAssumptions(const ExactProblem& problem, Json& failed) {
   const auto semidefinite = DecideSemidefinite(problem.A);
   if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
     failed.push_back(FailedSemidefinite(*negative));
@@ -177,21 +178,25 @@ Json FailedAssumptions(const ProblemFile& file) {
         {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
     AddFailedHypothesis(problem, failed);
   }
-  return failed;
 }
 
-Json FailedAssumptions(const SparseProblem& problem) {
+}  // namespace
+
+Json FailedAssumptions(const AnyProblem& problem) {
   Json failed = Json::array();
-  if (problem.factors) {
-    const bool is_few = !StaysSparse(problem.rows(), true);
-    const bool in_range = IsInRangeByFactors(*problem.factors) || (is_few && IsRegularModuloPrime(problem));
+  const bool is_small = problem.rows() <= kExactAssumptionRows;
+  if (problem.factors() != nullptr && !is_small) {
+    const bool in_range =
+        IsInRangeByFactors(*problem.factors()) || (!StaysSparse(problem) && IsRegularModuloPrime(problem));
     if (!in_range) AddUndecidedRange(failed);
     return failed;
   }
-  const Asymmetry largest = LargestAsymmetry(problem);
-  if (largest.difference != 0)
-    failed.push_back({{"assumption", "symmetric"}, {"i", largest.i}, {"j", largest.j}});
-  AddBoundedAssumptions(problem, failed);
+  AddAsymmetry(problem, failed);
+  if (is_small) {
+    AddExactAssumptions(problem, failed);
+  } else {
+    AddBoundedAssumptions(problem, failed);
+  }
   return failed;
 }
 

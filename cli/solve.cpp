@@ -21,14 +21,12 @@
 #include "certify/exact/newton_bodies.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
-#include "certify/request/solve_sparse.h"
 #include "cli/command_line.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
 #include "cli/narration/problem_text.h"
 #include "cli/program.h"
 #include "cli/shared.h"
-#include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
@@ -123,13 +121,13 @@ std::string NumberText(const Json& x, FractionText fractions) {
 }
 
 // Force and acceleration of every variable, and the impulsive direction where there is one.
-std::string VariablesTable(const ExactProblem& problem, const Json& result, FractionText fractions) {
+std::string VariablesTable(const AnyProblem& problem, const Json& result, FractionText fractions) {
   std::vector<std::string> columns;
   for (const char* name : {"f", "a", "ray"}) {
     if (result.contains(name) && result[name].is_array() && !result[name].empty()) columns.emplace_back(name);
   }
   if (columns.empty()) return "";
-  const VariableTexts names(problem);
+  const VariableTexts names(problem.contacts(), problem.dimension());
   std::vector<std::string> head = {""};
   head.insert(head.end(), columns.begin(), columns.end());
   TextTable table(std::move(head), 1);
@@ -167,7 +165,7 @@ std::string AssumptionsText(const Json& assumptions, const std::string& file, in
                      fmt::join(names, ", "), file, names[0]);
 }
 
-void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solution& solution,
+void PrintForPeople(const SolveVerb& o, const AnyProblem& problem, const Solution& solution,
                     const Json& result) {
   const FractionText fractions = o.fractions ? FractionText::kFull : FractionText::kShort;
   Tell("{}\n", OutcomeSentence(result, solution));
@@ -188,47 +186,18 @@ void PrintForPeople(const SolveVerb& o, const ExactProblem& problem, const Solut
 
 using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
-// A stays as it is.
-Answered SolveLarge(const SolveVerb& o, const SparseProblem& problem, const std::atomic<bool>& stopped) {
-  Request request = o.request;
-  request.limits.stop = &stopped;
-  const Solution solution{SolveSparse(problem, request, o.method)};
-  Json result = SolutionToJson(solution, problem.dimension);
-  if (o.method == kAutomatic)
-    result["why"] = problem.factors
-                        ? Counted(problem.rows(), "row") + " in factors: over doubles, A is not formed"
-                        : fmt::format("more than {} rows: over doubles, A sparse", kMostDenseRows);
-  result["assumptions"] = FailedAssumptions(problem);
-  if (!o.json) PrintForPeople(o, {problem.dimension, problem.contacts, {}, problem.b}, solution, result);
-  return {result, ExitOf(solution.outcome())};
-}
-
-// What was read, dense where that is needed for what is asked.
-std::variant<ProblemFile, SparseProblem> ReadFor(const SolveVerb& o) {
-  auto read = ReadAnySize(o.file);
-  const auto* large = std::get_if<SparseProblem>(&read);
-  const std::string dense = large != nullptr ? AsksForDense(o, *large) : "";
-  if (dense.empty()) return read;
-  if (large->rows() <= kMostDenseRows) return ToDense(*large, o.file);
-  throw InputError(o.file, "rows", std::to_string(large->rows()),
-                   fmt::format("at most {} with {}, for which A is dense; without it A stays sparse",
-                               kMostDenseRows, dense));
-}
-
 Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
-  const auto read = ReadFor(o);
-  if (const auto* large = std::get_if<SparseProblem>(&read)) return SolveLarge(o, *large, stopped);
-  const auto& file = std::get<ProblemFile>(read);
-  Request request = RequestOf(o, file.problem, o.file);
-  // `auto` takes those of a scene for nothing that it would not do without.
-  const auto factors = o.method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  const ProblemFile file = ReadProblem(o.file, kAnyRows);
+  // `auto` takes the factors of a scene for nothing that it would not do without.
+  const AnyProblem problem = o.method == kNewtonBodies ? InFactors(file) : file.problem;
+  Request request = RequestOf(o, problem, o.file);
   request.limits.stop = &stopped;
-  const Solution solution = SolveAsked(file.problem, request, o.file, factors ? &*factors : nullptr);
-  Json result = SolutionToJson(solution, file.problem.dimension);
-  if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, file.problem).why;
+  const Solution solution = SolveAsked(problem, request, o.file);
+  Json result = SolutionToJson(solution, problem.dimension());
+  if (o.arithmetic.empty()) result["why"] = UsualArithmetic(request.method, problem).why;
   if (o.method == "baraff") result["policy"] = PolicyName(request.policy);
-  result["assumptions"] = FailedAssumptions(file);
-  if (!o.json) PrintForPeople(o, file.problem, solution, result);
+  result["assumptions"] = FailedAssumptions(problem);
+  if (!o.json) PrintForPeople(o, problem, solution, result);
   return {result, ExitOf(solution.outcome())};
 }
 

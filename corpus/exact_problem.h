@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A problem over rationals, as files and certificates have it.
+// A problem over rationals, as files and certificates have it: of any form, and of each.
 
 #ifndef STICTION_CORPUS_EXACT_PROBLEM_H_
 #define STICTION_CORPUS_EXACT_PROBLEM_H_
@@ -7,11 +7,14 @@
 #include <string_view>
 
 #include "corpus/rational.h"
-#include "solver/problem/problem.h"
+#include "solver/problem/any_problem.h"
 
 namespace stiction {
 
-using ExactProblem = ContactProblem<Rational>;
+using AnyProblem = Problem<Rational>;
+using ExactProblem = AnyProblem::Dense;
+using ExactEntries = AnyProblem::Entries;
+using ExactFactors = AnyProblem::Factored;
 
 // "bilateral", "frictionless", "static", "sliding".
 std::string_view Name(ContactKind kind);

@@ -15,12 +15,6 @@ namespace stiction {
 
 // A number that is not finite becomes text.
 Json NumberToJson(double x);
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (const auto& x : numbers) json.push_back(NumberToJson(static_cast<double>(x)));
-  return json;
-}
 inline Json InJson(const Rational& x) { return ToString(x); }
 inline Json InJson(double x) { return NumberToJson(x); }
 template <class Numbers>

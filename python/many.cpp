@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -27,20 +28,19 @@ namespace py = pybind11;
 
 using Doubles = py::array_t<double, 0>;
 
-struct Arrays {
-  py::detail::unchecked_reference<double, 3> A;
-  py::detail::unchecked_reference<double, 2> b, mu;
-};
+// read(i, problem): number i of the arrays, into a problem of its contacts, whose memory is kept.
+using ReadNumbers = std::function<void(py::ssize_t, ContactProblem<double>&)>;
 
-// Into a problem of these contacts, whose memory is kept.
-void Read(const Arrays& arrays, py::ssize_t i, ContactProblem<double>& problem) {
-  const int rows = problem.rows();
-  for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-    problem.contacts[k].mu = arrays.mu(i, static_cast<py::ssize_t>(k));
-  for (int j = 0; j < rows; ++j) {
-    for (int k = 0; k < rows; ++k) problem.A(j, k) = arrays.A(i, j, k);
-    problem.b[j] = arrays.b(i, j);
-  }
+ReadNumbers ReaderOf(const Doubles& A, const Doubles& b, const Doubles& mu) {
+  return [A = A.unchecked<3>(), b = b.unchecked<2>(), mu = mu.unchecked<2>()](py::ssize_t i, auto& problem) {
+    const int rows = problem.rows();
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      problem.contacts[k].mu = mu(i, static_cast<py::ssize_t>(k));
+    for (int j = 0; j < rows; ++j) {
+      for (int k = 0; k < rows; ++k) problem.A(j, k) = A(i, j, k);
+      problem.b[j] = b(i, j);
+    }
+  };
 }
 
 // Columns of answers. Threads write rows of their own; what they have in common is locked.
@@ -126,9 +126,9 @@ class Columns {
 // Units of neighbouring problems, which threads take one after another.
 class Many {
  public:
-  Many(const Arrays& arrays, py::ssize_t count, const ContactProblem<double>& like, const Request& request,
+  Many(const ReadNumbers& read, py::ssize_t count, const ContactProblem<double>& like, const Request& request,
        int threads, Columns& columns)
-      : arrays_(arrays),
+      : read_(read),
         count_(count),
         like_(like),
         request_(request),
@@ -152,7 +152,7 @@ class Many {
     while (!request_.limits.Stopped()) {
       const py::ssize_t first = next_.fetch_add(size), count = std::min(count_ - first, size);
       if (count <= 0 || first > refused_at_) return;
-      for (py::ssize_t k = 0; k < count; ++k) Read(arrays_, first + k, problems[static_cast<std::size_t>(k)]);
+      for (py::ssize_t k = 0; k < count; ++k) read_(first + k, problems[static_cast<std::size_t>(k)]);
       if (request_.arithmetic == Arithmetic::kDouble) {
         SolveUnit(first, count, problems, &SolveDoubles);
         continue;
@@ -188,7 +188,7 @@ class Many {
     refused_ = std::make_exception_ptr(InputError(fmt::format("problem {}: {}", i, error.what())));
   }
 
-  const Arrays& arrays_;
+  const ReadNumbers& read_;
   const py::ssize_t count_;
   const ContactProblem<double>& like_;
   const Request& request_;
@@ -204,13 +204,13 @@ class Many {
 
 py::dict SolveMany(const ExactProblem& like, const Doubles& A, const Doubles& b, const Doubles& mu,
                    Request request, int threads) {
-  const Arrays arrays{A.unchecked<3>(), b.unchecked<2>(), mu.unchecked<2>()};
+  const ReadNumbers read = ReaderOf(A, b, mu);
   const auto rounded =
       Converted<double>(like, [](const Rational& x) { return ToDouble(x); });  // mu, A, b: read
   Columns columns(A.shape(0), like.rows());
   Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
-    Many(arrays, A.shape(0), rounded, request, threads, columns).Run();
+    Many(read, A.shape(0), rounded, request, threads, columns).Run();
     return true;
   });
   return columns.Taken();

@@ -26,7 +26,6 @@
 #include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
-#include "certify/request/solve_sparse.h"
 #include "cli/narration/all_policies.h"
 #include "cli/narration/explained.h"
 #include "cli/narration/followed.h"
@@ -58,66 +57,35 @@ namespace py = pybind11;
 
 const std::string kSource = "Problem";  // in errors of a problem
 
-// A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at. What stays sparse
-// is kept beside its dense form, which is made when it is first asked for, by a caller that holds the lock.
+// A problem, and beside it A and b at their nearest doubles, which arrays of numpy look at; that of A is made
+// when it is first asked for, by a caller that holds the lock.
 class PythonProblem {
  public:
-  explicit PythonProblem(std::variant<ProblemFile, SparseProblem> of) {
-    if (auto* file = std::get_if<ProblemFile>(&of)) {
-      TakeDense(std::move(*file));
-    } else {
-      sparse_ = std::get<SparseProblem>(std::move(of));
-    }
-    b_ = All().b.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  }
+  explicit PythonProblem(ProblemFile file)
+      : file_(std::move(file)),
+        doubles_{.contacts = {}, .A = {}, .b = file_.problem.b().unaryExpr(&ToDouble)} {}
 
-  // Null where all of A is there from the start.
-  const SparseProblem* sparse() const { return sparse_ ? &*sparse_ : nullptr; }
+  const ProblemFile& file() const { return file_; }
+  const AnyProblem& problem() const { return file_.problem; }
   // InputError above kMostDenseRows.
-  const ProblemFile& file() {
-    if (!dense_) TakeDense(ToDense(*sparse_, kSource));
-    return *dense_;
+  const ExactProblem& dense() const {
+    RequireFewRows(file_.problem, kSource);
+    return file_.problem;
   }
-  const ExactProblem& problem() { return file().problem; }
   const Eigen::MatrixXd& A() {
-    file();
-    return A_;
+    if (doubles_.A.rows() != problem().rows()) doubles_.A = dense().A.unaryExpr(&ToDouble);
+    return doubles_.A;
   }
-  const Eigen::VectorXd& b() const { return b_; }
+  const Eigen::VectorXd& b() const { return doubles_.b; }
 
-  struct Parts {
-    const std::string& name;
-    int dimension;
-    const std::vector<Contact<Rational>>& contacts;
-    const ExactProblem::Vector& b;
-    const std::optional<ExactFactors>& factors;
-  };
-  // All but A.
-  Parts All() const {
-    if (sparse_) return {sparse_->name, sparse_->dimension, sparse_->contacts, sparse_->b, sparse_->factors};
-    const ExactProblem& problem = dense_->problem;
-    return {dense_->name, problem.dimension, problem.contacts, problem.b, dense_->factors};
-  }
-  std::string Text() const { return sparse_ ? Print(*sparse_) : Print(*dense_); }
   template <class Scalar>
-  PythonProblem In() {
-    return PythonProblem(ProblemFile{file().name, Unrounded(Rounded<Scalar>(problem())), {}, {}, {}});
-  }
-  std::variant<ProblemFile, SparseProblem> AsRead() const {
-    if (dense_) return *dense_;
-    return *sparse_;
+  PythonProblem In() const {
+    return PythonProblem(ProblemFile{file_.name, Unrounded(Rounded<Scalar>(dense())), {}, {}, {}});
   }
 
  private:
-  void TakeDense(ProblemFile file) {
-    dense_ = std::move(file);
-    A_ = dense_->problem.A.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  }
-
-  std::optional<SparseProblem> sparse_;
-  std::optional<ProblemFile> dense_;
-  Eigen::MatrixXd A_;
-  Eigen::VectorXd b_;
+  ProblemFile file_;
+  ContactProblem<double> doubles_;  // A and b alone
 };
 
 // Bytes that are no UTF-8, as a file or its name may have, become U+FFFD, as JsonText has it.
@@ -296,20 +264,11 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   wanted.request.sides = sides;
   SetNumbers(wanted.request.limits, numbers);
   SetNumbers(wanted.request.tolerances, numbers);
-  if (problem.sparse() != nullptr && AsksForDense(wanted, *problem.sparse()).empty()) {
-    const SparseProblem& sparse = *problem.sparse();
-    return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
-      wanted.request.limits.stop = stop;
-      return SolutionToJson({SolveSparse(sparse, wanted.request, wanted.method)}, sparse.dimension);
-    }));
-  }
-  const ProblemFile& file = problem.file();
-  Request request = RequestOf(wanted, file.problem, kSource);
-  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  const AnyProblem asked = method == kNewtonBodies ? InFactors(problem.file()) : problem.problem();
+  Request request = RequestOf(wanted, asked, kSource);
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
-    return SolutionToJson(SolveAsked(file.problem, request, kSource, factors ? &*factors : nullptr),
-                          file.problem.dimension);
+    return SolutionToJson(SolveAsked(asked, request, kSource), asked.dimension());
   }));
 }
 
@@ -340,7 +299,7 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
   SetNumbers(wanted.request.limits, numbers);
   wanted.request.confirm = confirm;
   for (const auto* some : {&problems, &judged}) {
-    for (PythonProblem* problem : *some) problem->file();
+    for (PythonProblem* problem : *some) problem->dense();
   }
   const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
     Ends all;
@@ -349,10 +308,10 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
       Request request = RequestOf(wanted, problem->problem(), kSource);
       request.limits.stop = stop;
       Stopwatch watch;
-      const Solution solution = SolveAsked(problem->problem(), request, kSource, nullptr, &watch);
+      const Solution solution = SolveAsked(problem->problem(), request, kSource, &watch);
       all.seconds.push_back(watch.Seconds());
       if (!judged.empty())
-        all.residuals.push_back(LargestErrorOf(judged[all.outcomes.size()]->problem(), request, solution));
+        all.residuals.push_back(LargestErrorOf(judged[all.outcomes.size()]->dense(), request, solution));
       all.outcomes.emplace_back(Name(solution.outcome()));
       const auto rung = std::visit([](const auto& answer) { return answer.rung; }, solution.answer);
       all.decided_on.emplace_back(rung ? Name(*rung) : "");
@@ -380,10 +339,10 @@ std::vector<PythonProblem> DrawProblems(const std::string& campaign_text, std::i
   for (std::int64_t index = first; index < first + count; ++index) {
     Choices choices(
         ProblemSeed(campaign.seed, static_cast<std::uint64_t>(contacts), static_cast<std::uint64_t>(index)));
-    ProblemFile file;
-    file.name = fmt::format("{}-{}-{}", Row(generator).name, contacts, index);
-    Generate<Rational, Eigen::Dynamic>(generator, contacts, SurroundingsOf(campaign), choices, file.problem);
-    problems.emplace_back(std::move(file));
+    ExactProblem drawn;
+    Generate<Rational, Eigen::Dynamic>(generator, contacts, SurroundingsOf(campaign), choices, drawn);
+    problems.emplace_back(
+        ProblemFile{fmt::format("{}-{}-{}", Row(generator).name, contacts, index), drawn, {}, {}, {}});
   }
   return problems;
 }
@@ -399,13 +358,14 @@ Wanted WantedPath(const std::string& policy, const std::string& method, const st
 py::object ReplayProblem(PythonProblem& problem, const std::string& policy, const std::string& method,
                          const std::string& arithmetic, int sides, const Numbers& numbers) {
   const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
+  const ExactProblem& dense = problem.dense();
   Request request = PathRequestOf(wanted, problem.problem(), kSource);
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
     const Solution solution = SolveAsked(problem.problem(), request, kSource);
     Json json = ReplayToJson({method, policy, wanted.request.limits}, problem.file(), solution,
                              Narrate(method, problem.file(), solution, {.vectors = true}), true);
-    const auto proved = OverIntervals(problem.problem(), request, solution.outcome());
+    const auto proved = OverIntervals(dense, request, solution.outcome());
     if (proved) json["over_intervals"] = EndToJson(*proved);
     return json;
   }));
@@ -417,14 +377,14 @@ std::string PageOfReplay(PythonProblem& problem, const std::string& policy, cons
                          const std::string& command) {
   const Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
   const ProblemFile& file = problem.file();
+  const ExactProblem& dense = problem.dense();
   Request request = PathRequestOf(wanted, file.problem, kSource);
   return Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
     const Solution solution = SolveAsked(file.problem, request, kSource);
-    const auto proved = OverIntervals(file.problem, request, solution.outcome());
+    const auto proved = OverIntervals(dense, request, solution.outcome());
     const Json data = PageOfRun(wanted, file, kSource, PictureBeside(file, kSource), solution, proved);
-    return ViewerPage(file.name + ", step by step", data,
-                      {command, STICTION_VERSION, ProblemDigest(file.problem)});
+    return ViewerPage(file.name + ", step by step", data, {command, STICTION_VERSION, ProblemDigest(dense)});
   });
 }
 
@@ -434,21 +394,20 @@ py::dict SolveManyAsked(PythonProblem& like, const Doubles& A, const Doubles& b,
                         const std::string& law, int sides, const Numbers& numbers, bool followed, int threads) {
   Wanted wanted = WantedPath(policy, method, arithmetic, sides, numbers);
   wanted.law = law;
-  Request request =
-      followed ? PathRequestOf(wanted, like.problem(), kSource) : RequestOf(wanted, like.problem(), kSource);
+  const ExactProblem& dense = like.dense();
+  Request request = followed ? PathRequestOf(wanted, dense, kSource) : RequestOf(wanted, dense, kSource);
   request.trace = false;
-  return SolveMany(like.problem(), A, b, mu, request, threads);
+  return SolveMany(dense, A, b, mu, request, threads);
 }
 
 // What `explain` says of it, as data and as text of so many columns.
 py::tuple ExplainProblem(PythonProblem& problem, const std::string& file, int columns, const Numbers& numbers) {
   ExplainOptions options{.file = file};
   SetNumbers(options.limits, numbers);
-  const auto read = problem.AsRead();
   const auto [found, text] = Interruptible(0, [&](const std::atomic<bool>* stop) {
     options.limits.stop = stop;
     const FixedTextWidth width(static_cast<std::size_t>(columns));
-    Json json = Explained(read, options);
+    Json json = Explained(problem.file(), options);
     std::string told = ExplainedText(json);
     return std::make_pair(std::move(json), std::move(told));
   });
@@ -459,10 +418,10 @@ py::tuple ExplainProblem(PythonProblem& problem, const std::string& file, int co
 py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, int sides,
                          const Numbers& numbers) {
   Wanted wanted = WantedPath("paper", "baraff", arithmetic, sides, numbers);
-  problem.file();
+  const ExactProblem& dense = problem.dense();
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.request.limits.stop = stop;
-    return Json(OutcomesOf(wanted, problem.problem(), kSource));
+    return Json(OutcomesOf(wanted, dense, kSource));
   }));
 }
 
@@ -473,12 +432,13 @@ py::object CertifyProblem(PythonProblem& problem, const std::string& claim, cons
                           const std::string& law, const Numbers& numbers) {
   WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.limits, numbers);
-  wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
+  const ExactProblem& dense = problem.dense();
+  wanted.factors = problem.problem().factors();
   Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.limits.stop = stop;
     EnumerationOptions enumeration;
     enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
-    return CertificateOf(wanted, problem.problem(), kSource, enumeration);
+    return CertificateOf(wanted, dense, kSource, enumeration);
   });
   Json& certificate = answer["certificate"];
   if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";
@@ -487,7 +447,7 @@ py::object CertifyProblem(PythonProblem& problem, const std::string& claim, cons
 
 // (accepted, claim, reason).
 std::tuple<bool, std::string, std::string> CheckForProblem(PythonProblem& problem, const std::string& text) {
-  const ExactProblem& exact = problem.problem();
+  const ExactProblem& exact = problem.dense();
   const py::gil_scoped_release released;
   const CheckReport report = CheckText(text, "certificate", ProblemDigest(exact));
   return {report.accepted, report.claim, report.reason};
@@ -501,7 +461,7 @@ std::vector<std::string> Texts(const auto& numbers) {
 
 std::vector<std::vector<std::string>> ExactA(PythonProblem& problem) {
   std::vector<std::vector<std::string>> rows;
-  for (const auto& row : problem.problem().A.rowwise()) {
+  for (const auto& row : problem.dense().A.rowwise()) {
     std::vector<std::string>& texts = rows.emplace_back();
     for (int j = 0; j < row.size(); ++j) texts.push_back(ToString(row(j)));
   }
@@ -526,8 +486,8 @@ py::tuple Triplets(const Sparse& matrix) {
 
 // J, M, w, c at their nearest doubles; None where the problem came without.
 py::object FactorsOf(const PythonProblem& problem) {
-  const auto& factors = problem.All().factors;
-  if (!factors) return py::none();
+  const ExactFactors* factors = problem.problem().factors();
+  if (factors == nullptr) return py::none();
   const FactoredProblem<double> rounded = InDoubles(*factors);
   return py::make_tuple(Triplets(rounded.A.J()), Triplets(rounded.M), rounded.w, rounded.c);
 }
@@ -548,39 +508,41 @@ PYBIND11_MODULE(_stiction, module) {
   });
   py::class_<PythonProblem>(module, "Problem")
       .def_static("from_numbers", &FromNumbers)
-      .def_static("parse", [](const std::string& text,
-                              const std::string& source) { return PythonProblem(ParseAnySize(text, source)); })
-      .def_static("read", [](const std::string& file) { return PythonProblem(ReadAnySize(file)); })
-      .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, p.Text()); })
-      .def("text", &PythonProblem::Text)
+      .def_static("parse",
+                  [](const std::string& text, const std::string& source) {
+                    return PythonProblem(ParseProblem(text, source, kAnyRows));
+                  })
+      .def_static("read", [](const std::string& file) { return PythonProblem(ReadProblem(file, kAnyRows)); })
+      .def("save", [](const PythonProblem& p, const std::string& file) { WriteText(file, Print(p.file())); })
+      .def("text", [](const PythonProblem& p) { return Print(p.file()); })
       .def("rounded", [](PythonProblem& p, bool narrow) { return narrow ? p.In<float>() : p.In<double>(); })
-      .def("digest", [](PythonProblem& p) { return ProblemDigest(p.problem()); })
-      .def_property_readonly("name", [](const PythonProblem& p) { return p.All().name; })
-      .def_property_readonly("dimension", [](const PythonProblem& p) { return p.All().dimension; })
+      .def("digest", [](PythonProblem& p) { return ProblemDigest(p.dense()); })
+      .def_property_readonly("name", [](const PythonProblem& p) { return p.file().name; })
+      .def_property_readonly("dimension", [](const PythonProblem& p) { return p.problem().dimension(); })
       .def_property_readonly("A", [](const py::object& p) { return View(p.cast<PythonProblem&>().A(), p); })
       .def_property_readonly("b", [](const py::object& p) { return View(p.cast<PythonProblem&>().b(), p); })
       .def("factors", &FactorsOf)
       .def("exact_A", &ExactA)
-      .def("exact_b", [](const PythonProblem& p) { return Texts(p.All().b); })
+      .def("exact_b", [](const PythonProblem& p) { return Texts(p.problem().b()); })
       .def("exact_mu",
            [](const PythonProblem& p) {
              std::vector<std::string> texts;
-             for (const auto& contact : p.All().contacts) texts.push_back(ToString(contact.mu));
+             for (const auto& contact : p.problem().contacts()) texts.push_back(ToString(contact.mu));
              return texts;
            })
       .def("exact_slips",
            [](const PythonProblem& p) {
              std::vector<std::vector<std::string>> texts;
-             for (const auto& contact : p.All().contacts) {
+             for (const auto& contact : p.problem().contacts()) {
                auto& slip = texts.emplace_back();
                if (contact.kind != ContactKind::kSliding) continue;
-               for (int k = 0; k + 1 < p.All().dimension; ++k) slip.push_back(ToString(contact.slip[k]));
+               for (int k = 0; k + 1 < p.problem().dimension(); ++k) slip.push_back(ToString(contact.slip[k]));
              }
              return texts;
            })
       .def("kinds", [](const PythonProblem& p) {
         std::vector<std::string> kinds;
-        for (const auto& contact : p.All().contacts) kinds.emplace_back(Name(contact.kind));
+        for (const auto& contact : p.problem().contacts()) kinds.emplace_back(Name(contact.kind));
         return kinds;
       });
   module.def("solve", &SolveProblem);

@@ -183,8 +183,8 @@ class FramesWriter {
                  {"points", std::move(points)},
                  {"problems", frame.problems},
                  {"remark", frame.remark},
-                 {"energy", NumbersToJson(frame.energy)},
-                 {"drift", NumbersToJson(frame.drift)}};
+                 {"energy", ListJson(frame.energy)},
+                 {"drift", ListJson(frame.drift)}};
     before_ = std::move(now);
     return json;
   }

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "solver/in_turn.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
 #include "solver/numeric/proximal.h"
@@ -47,18 +48,14 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const Request&
 // Where masses or jams are beyond what pivots of this scalar tell apart, proximal points may still be found.
 template <class Scalar>
 Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const Request& request) {
-  FastSolver<Scalar> solver(Aiming<Scalar>(request));
-  auto answer = AnswerOf<Scalar>(solver.Run(problem));
-  answer.f = solver.f();
-  if (answer.Solved()) {
-    answer.word = solver.Word();
+  const auto run_cells = [&] {
+    FastSolver<Scalar> solver(Aiming<Scalar>(request));
+    auto answer = AnswerOf<Scalar>(solver.Run(problem));
+    answer.f = solver.f();
+    if (answer.Solved()) answer.word = solver.Word();
     return answer;
-  }
-  if (request.limits.Stopped()) return answer;
-  Answer<Scalar> other = RunProximal(problem, request);
-  if (!other.Solved()) return answer;
-  other.counters += answer.counters;
-  return other;
+  };
+  return InTurn(request.limits, run_cells, [&] { return RunProximal(problem, request); });
 }
 
 template <class Scalar, CoulombStart kStart>

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems in factors, for tests: from a J, and back to A.
+// Problems in factors, for tests, from a J.
 
 #ifndef STICTION_TESTS_FACTORED_H_
 #define STICTION_TESTS_FACTORED_H_
 
 #include <vector>
 
-#include "solver/problem/factored.h"
+#include "solver/problem/any_problem.h"
 
 namespace stiction::testing {
-
-// A, entry by entry.
-template <class Scalar>
-auto AllOf(const FactoredProblem<Scalar>& problem) {
-  typename ContactProblem<Scalar>::Matrix A =
-      ContactProblem<Scalar>::Matrix::Constant(problem.rows(), problem.rows(), Scalar(0));
-  ForEachEntry(problem.A, [&A](int i, int j, const Scalar& x) { A(i, j) += x; });
-  return A;
-}
 
 // With unit masses: A = J J', b = J w + c.
 inline FactoredProblem<double> InFactors(int dimension, const std::vector<Contact<double>>& contacts,
@@ -33,10 +24,6 @@ inline FactoredProblem<double> InFactors(int dimension, const std::vector<Contac
   problem.c = c;
   problem.b = J * w + c;
   return problem;
-}
-
-inline ContactProblem<double> Dense(const FactoredProblem<double>& problem) {
-  return {problem.dimension, problem.contacts, AllOf(problem), problem.b};
 }
 
 }  // namespace stiction::testing

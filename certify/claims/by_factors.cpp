@@ -138,7 +138,7 @@ ExactVector RequireFactorsOfProblem(const ExactProblem& problem, const Json& wit
   RequireCheap(problem, parts);
   const auto factors = MakeFactors(problem.dimension, problem.contacts, std::move(parts));
   if (!factors) throw Rejected{"witness.factors.M", "a block that is not definite", "a positive definite one"};
-  const ExactProblem stated = ToDense(*factors);
+  const ExactProblem stated = DenseOf(*factors);
   for (int i = 0; i < problem.rows(); ++i) {
     for (int j = 0; j < problem.rows(); ++j)
       RequireEqual(stated.A(i, j), problem.A(i, j), fmt::format("(J inv(M) J')[{}][{}]", i, j));

@@ -9,7 +9,6 @@
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
-#include "corpus/record/sparse_problem.h"
 
 namespace stiction {
 namespace {
@@ -53,9 +52,7 @@ Json NegativeCertificate(const ExactProblem& problem, const NegativeCurvature& n
 std::optional<NegativeCurvature> FindNegativeCurvature(const ExactProblem& problem) {
   constexpr int kEliminatedRows = 60;
   if (problem.rows() <= kEliminatedRows) return std::nullopt;
-  ProblemFile file;
-  file.problem = problem;
-  return BoundCurvature(ToSparse(file)).negative;
+  return BoundCurvature(problem).negative;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/asymmetry.h"
 
 namespace stiction {
 namespace {
@@ -15,13 +15,7 @@ using Dense = Eigen::VectorXd;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 
-Sparse ToDoubles(const SparseProblem& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [at, value] : problem.A) entries.emplace_back(at.first, at.second, ToDouble(value));
-  Sparse A(problem.rows(), problem.rows());
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
-}
+Sparse ToDoubles(const AnyProblem& problem) { return problem.entries().A.unaryExpr(&ToDouble); }
 
 Dense ToDoubles(const ExactVector& values) {
   Dense rounded(values.size());
@@ -35,11 +29,7 @@ ExactVector ToExact(const Dense& values) {
   return exact;
 }
 
-Sparse SymmetricPart(const SparseProblem& problem) {
-  SparseProblem symmetric = problem;
-  Symmetrize(symmetric);
-  return ToDoubles(symmetric);
-}
+Sparse SymmetricPart(const AnyProblem& problem) { return ToDoubles(Symmetrized(problem)); }
 
 Sparse Shifted(const Sparse& S, double shift) {
   Sparse identity(S.rows(), S.cols());
@@ -97,10 +87,9 @@ Rational SumOfProducts(const ExactVector& x, const ExactVector& y) {
 }
 
 // abs(A x - b) / abs(b), b /= 0.
-double RelativeResidual(const SparseProblem& problem, const ExactVector& x) {
-  ExactVector residual = Times(problem, x);
-  for (int i = 0; i < residual.size(); ++i) residual[i] -= problem.b[i];
-  const Rational square = SumOfProducts(residual, residual) / SumOfProducts(problem.b, problem.b);
+double RelativeResidual(const AnyProblem& problem, const ExactVector& x) {
+  const ExactVector residual = problem.entries().A * x - problem.b();
+  const Rational square = SumOfProducts(residual, residual) / SumOfProducts(problem.b(), problem.b());
   return std::sqrt(ToDouble(square)) * (1 + 4 * kUnit);
 }
 
@@ -123,15 +112,7 @@ Dense ProximalPoint(const Sparse& S, const Sparse& A, const Dense& b, double shi
 
 }  // namespace
 
-ExactVector Times(const SparseProblem& problem, const ExactVector& x) {
-  ExactVector y = ExactVector::Constant(problem.rows(), Rational(0));
-  for (const auto& [at, value] : problem.A) {
-    if (x[at.second] != 0) y[at.first] += value * x[at.second];
-  }
-  return y;
-}
-
-CurvatureBounds BoundCurvature(const SparseProblem& problem) {
+CurvatureBounds BoundCurvature(const AnyProblem& problem) {
   CurvatureBounds bounds;
   if (problem.rows() == 0) {
     bounds.least = 0;
@@ -140,7 +121,7 @@ CurvatureBounds BoundCurvature(const SparseProblem& problem) {
   const Sparse S = SymmetricPart(problem);
   bounds.scale = S.diagonal().cwiseAbs().maxCoeff();
   if (const auto x = ProposeNegative(S)) {
-    const Rational value = SumOfProducts(*x, Times(problem, *x));
+    const Rational value = SumOfProducts(*x, problem.entries().A * *x);
     if (value < 0) {
       bounds.negative = NegativeCurvature{*x, value};
       bounds.most = ToDouble(value / SumOfProducts(*x, *x));
@@ -155,9 +136,9 @@ CurvatureBounds BoundCurvature(const SparseProblem& problem) {
   return bounds;
 }
 
-RangeDistance BoundRangeDistance(const SparseProblem& problem) {
+RangeDistance BoundRangeDistance(const AnyProblem& problem) {
   RangeDistance best{ExactVector::Constant(problem.rows(), Rational(0)), 1, 1};
-  const Dense b = ToDoubles(problem.b);
+  const Dense b = ToDoubles(problem.b());
   if (b.size() == 0 || b.cwiseAbs().maxCoeff() == 0) return {best.x, 0, 0};
   const Sparse S = SymmetricPart(problem), A = ToDoubles(problem);
   const double scale = LargestRowSum(S);
@@ -174,7 +155,7 @@ RangeDistance BoundRangeDistance(const SparseProblem& problem) {
   return best;
 }
 
-bool IsRegularModuloPrime(const SparseProblem& problem) {
+bool IsRegularModuloPrime(const AnyProblem& problem) {
   constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
   const mpz_class prime(std::to_string(kPrime));
   const auto multiply = [](std::uint64_t x, std::uint64_t y) {
@@ -195,11 +176,13 @@ bool IsRegularModuloPrime(const SparseProblem& problem) {
   };
   const int rows = problem.rows();
   std::vector<std::vector<std::uint64_t>> M(rows, std::vector<std::uint64_t>(rows));
-  for (const auto& [at, value] : problem.A) {
+  bool has_residues = true;
+  ForEachEntry(problem.entries().A, [&](int i, int j, const Rational& value) {
     const std::uint64_t denominator = residue(value.get_den());
-    if (denominator == 0) return false;
-    M[at.first][at.second] = multiply(residue(value.get_num()), inverse(denominator));
-  }
+    has_residues &= denominator != 0;
+    M[i][j] = multiply(residue(value.get_num()), inverse(denominator));
+  });
+  if (!has_residues) return false;
   for (int k = 0; k < rows; ++k) {
     int pivot = k;
     while (pivot < rows && M[pivot][k] == 0) ++pivot;

@@ -26,15 +26,13 @@
 
 namespace stiction {
 
-struct SparseProblem;  // corpus/record/sparse_problem.h
-
 struct CurvatureBounds {
   double scale = 0;             // largest A_ii
   std::optional<double> least;  // x'Ax >= least x'x for all x; >= 0: A is positive semidefinite
   std::optional<NegativeCurvature> negative;
   double most = 0;  // x'Ax / x'x of `negative`, rounded: what there is to see of it
 };
-CurvatureBounds BoundCurvature(const SparseProblem& problem);
+CurvatureBounds BoundCurvature(const AnyProblem& problem);
 
 struct RangeDistance {
   ExactVector x;
@@ -43,13 +41,10 @@ struct RangeDistance {
   // how far b is from the range if those are zeros that rounding has changed. A finding, no bound.
   double rough = 0;
 };
-RangeDistance BoundRangeDistance(const SparseProblem& problem);
+RangeDistance BoundRangeDistance(const AnyProblem& problem);
 
 // Whether A is regular modulo a prime: then it is regular, and every b is in its range. False says nothing.
-bool IsRegularModuloPrime(const SparseProblem& problem);
-
-// y = A x.
-ExactVector Times(const SparseProblem& problem, const ExactVector& x);
+bool IsRegularModuloPrime(const AnyProblem& problem);
 
 }  // namespace stiction
 

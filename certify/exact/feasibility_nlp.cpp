@@ -58,14 +58,17 @@ Json MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled, const
   Json contacts = Json::array();
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     Json& contact = contacts.emplace_back(Json{{"kind", Name(problem.contacts[i].kind)}});
-    if (problem.contacts[i].HasFrictionRows()) contact["mu"] = scaled.mu[i];
-    if (problem.contacts[i].kind == ContactKind::kSliding) contact["slip"] = scaled.slip[i];
+    if (problem.contacts[i].HasFrictionRows()) contact["mu"] = scaled.numbers.contacts[i].mu;
+    if (problem.contacts[i].kind == ContactKind::kSliding) contact["slip"] = scaled.numbers.contacts[i].slip[0];
   }
+  Json A = Json::array();
+  for (const auto& row : scaled.numbers.A.rowwise()) A.push_back(std::vector<double>(row.begin(), row.end()));
+  const auto& b = scaled.numbers.b;
   const bool quadratic = options.formulation == Formulation::kQuadratic;
   return {{"dimension", problem.dimension},
           {"contacts", contacts},
-          {"A", scaled.A},
-          {"b", scaled.b},
+          {"A", A},
+          {"b", std::vector<double>(b.begin(), b.end())},
           {"options",
            {{"first_start", 0},
             {"max_iterations", options.max_iterations},

@@ -53,8 +53,8 @@ InexactAnswer InDoubles(const Answer<Scalar>& answer, const ContactProblem<Scala
 }
 
 // InputError where the published algorithm in space has no such reading.
-inline void RequireReading(const ExactProblem& problem, const Request& request) {
-  const bool concerned = problem.dimension == 3 && request.method == "baraff";
+inline void RequireReading(int dimension, const Request& request) {
+  const bool concerned = dimension == 3 && request.method == "baraff";
   if (!concerned || PublishedReadsInSpace(request.policy)) return;
   throw InputError(
       fmt::format("--policy {}: in space expected file=no, apex=kept and slip=literal or slip=redirect, or "

@@ -14,6 +14,7 @@
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "corpus/rounded.h"
+#include "solver/in_turn.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/reduction.h"
 #include "solver/solve.ipp"
@@ -128,33 +129,37 @@ NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) 
   return near;
 }
 
-// The published algorithm within a budget of steps. It passes many ties sooner than complete driving.
+// The published algorithm within a budget of steps: a solution, or nothing. It passes many ties sooner than
+// complete driving.
 Answer<Rational> RunPublishedBriefly(const ExactProblem& problem, Request request) {
   constexpr int kStepsOfRow = 4;
   request.method = "baraff";
   request.limits.pivots = std::min<std::int64_t>(request.limits.pivots, kStepsOfRow * (problem.rows() + 1));
-  return Solve(problem, request);
+  Answer<Rational> answer = Solve(problem, request);
+  return answer.Solved() ? answer : Answer<Rational>();
 }
 
 // Where the cells of doubles are none, the published algorithm and complete driving.
 Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& request) {
-  NearbyWords near = SolveNearDoubles(problem, request.limits);
-  Answer<Rational> answer;
-  bool drove = false;
-  if (near.f) {
+  Counters counters;
+  const auto run_cells = [&] {
+    NearbyWords near = SolveNearDoubles(problem, request.limits);
+    Answer<Rational> answer;
+    counters = {{Counter::kWords, near.words}, {Counter::kPublished, !near.f}, {Counter::kFallbacks, 0}};
+    if (!near.f) return answer;
     answer.outcome = Outcome::kSolved;
     answer.f = *std::move(near.f);
-  } else {
-    answer = RunPublishedBriefly(problem, request);
-    drove = !answer.Solved();
-    if (drove) {
-      Request complete = request;
-      complete.method = "complete";
-      answer = Solve(problem, complete);
-    }
-  }
-  answer.counters = {
-      {Counter::kWords, near.words}, {Counter::kPublished, !near.f}, {Counter::kFallbacks, drove}};
+    return answer;
+  };
+  const auto run_complete = [&] {
+    ++counters[Counter::kFallbacks];
+    Request complete = request;
+    complete.method = "complete";
+    return Solve(problem, complete);
+  };
+  Answer<Rational> answer =
+      InTurn(request.limits, run_cells, [&] { return RunPublishedBriefly(problem, request); }, run_complete);
+  answer.counters = counters;
   return answer;
 }
 

@@ -36,38 +36,22 @@ Rational Largest(const Values& values, const RoundedValues& rounded) {
 ScaledProblem MakeScaled(const ExactProblem& problem) {
   const Rational A_unit = Largest(problem.A, Eigen::MatrixXd(problem.A.unaryExpr(&ToDouble))),
                  b_unit = Largest(problem.b, Eigen::VectorXd(problem.b.unaryExpr(&ToDouble)));
-  ScaledProblem scaled;
   for (const auto& contact : problem.contacts) {
-    scaled.mu.push_back(ToDouble(contact.mu));
-    scaled.slip.push_back(ToDouble(contact.slip[0]));
-    if (!std::isfinite(scaled.mu.back())) {
+    if (!std::isfinite(ToDouble(contact.mu)))
       throw InputError("mu: found " + Shortened(ToString(contact.mu)) + ", expected a finite double for ipopt");
-    }
   }
-  for (int i = 0; i < problem.rows(); ++i) {
-    scaled.b.push_back(ToDouble(problem.b[i] / b_unit));
-    auto& row = scaled.A.emplace_back();
-    for (int j = 0; j < problem.rows(); ++j) row.push_back(ToDouble(problem.A(i, j) / A_unit));
-  }
-  scaled.force = b_unit / A_unit;
-  return scaled;
+  const auto in_units = [](const Rational& unit) {
+    return [&unit](const Rational& x) { return ToDouble(x / unit); };
+  };
+  return {{problem.dimension, Converted<double>(problem.contacts, &ToDouble),
+           problem.A.unaryExpr(in_units(A_unit)), problem.b.unaryExpr(in_units(b_unit))},
+          b_unit / A_unit};
 }
 
 ScaledProblem MakeScaled(const ExactProblem& problem, const ContactProblem<double>& rounded) {
   const Rational A_unit = Largest(problem.A, rounded.A), b_unit = Largest(problem.b, rounded.b);
-  const double A_near = ToDouble(A_unit), b_near = ToDouble(b_unit);
-  ScaledProblem scaled;
-  for (const auto& contact : rounded.contacts) {
-    scaled.mu.push_back(contact.mu);
-    scaled.slip.push_back(contact.slip[0]);
-  }
-  for (int i = 0; i < rounded.rows(); ++i) {
-    scaled.b.push_back(rounded.b[i] / b_near);
-    auto& row = scaled.A.emplace_back();
-    for (int j = 0; j < rounded.rows(); ++j) row.push_back(rounded.A(i, j) / A_near);
-  }
-  scaled.force = b_unit / A_unit;
-  return scaled;
+  return {{problem.dimension, rounded.contacts, rounded.A / ToDouble(A_unit), rounded.b / ToDouble(b_unit)},
+          b_unit / A_unit};
 }
 
 // ---- Words near a point --------------------------------------------------------------------------
@@ -101,9 +85,9 @@ double ConditionsBroken(Mode mode, double mu, double slip, double f_n, double f_
 // By contact, best first: the best mode and those that are near.
 std::vector<std::vector<RankedMode>> RankModes(const ExactProblem& problem, const ScaledProblem& scaled,
                                                const std::vector<double>& f) {
-  std::vector<double> a = scaled.b;
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    for (std::size_t j = 0; j < f.size(); ++j) a[i] += scaled.A[i][j] * f[j];
+  Eigen::VectorXd a = scaled.numbers.b;
+  for (int i = 0; i < a.size(); ++i) {
+    for (int j = 0; j < a.size(); ++j) a[i] += scaled.numbers.A(i, j) * f[j];
   }
   std::vector<std::vector<RankedMode>> ranked;
   int row = 0;
@@ -112,8 +96,9 @@ std::vector<std::vector<RankedMode>> RankModes(const ExactProblem& problem, cons
     const bool rough = contact.HasFrictionRows();
     auto& modes = ranked.emplace_back();
     for (const Mode mode : ModesOf(contact)) {
-      modes.push_back({mode, ConditionsBroken(mode, scaled.mu[i], scaled.slip[i], f[row],
-                                              rough ? f[row + 1] : 0, a[row], rough ? a[row + 1] : 0)});
+      const auto& [kind, mu, slip] = scaled.numbers.contacts[i];
+      modes.push_back({mode, ConditionsBroken(mode, mu, slip[0], f[row], rough ? f[row + 1] : 0, a[row],
+                                              rough ? a[row + 1] : 0)});
     }
     std::stable_sort(modes.begin(), modes.end(), [](auto& x, auto& y) { return x.broken < y.broken; });
     while (modes.size() > 1 && modes.back().broken > kNear) modes.pop_back();

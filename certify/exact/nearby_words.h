@@ -18,9 +18,7 @@ namespace stiction {
 
 // f = force f', where f' solves the problem with A / max abs(A_ij), b / max abs(b_i).
 struct ScaledProblem {
-  std::vector<double> mu, slip;  // by contact
-  std::vector<std::vector<double>> A;
-  std::vector<double> b;
+  ContactProblem<double> numbers;
   Rational force;
 };
 

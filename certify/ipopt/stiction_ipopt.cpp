@@ -46,7 +46,7 @@ constexpr int kProtocol = 1;
 // At the end of a start: a sum of products, of a problem whose numbers are of the order of 1.
 constexpr double kSolvedObjective = 1e-7;
 
-// ---- Requests ------------------------------------------------------------------------------------
+// ---- Contacts ------------------------------------------------------------------------------------
 
 struct Contact {
   std::string kind;
@@ -54,17 +54,6 @@ struct Contact {
   int row = 0;  // its normal
 
   bool HasFrictionRow() const { return kind == "static" || kind == "sliding"; }
-};
-
-struct Request {
-  std::vector<Contact> contacts;
-  std::vector<Vector> A;
-  Vector b;
-  int first_start = 0, starts = 1, max_iterations = 200;
-  std::uint64_t seed = 0;
-  bool quadratic = false;
-
-  int rows() const { return static_cast<int>(b.size()); }
 };
 
 void Require(bool condition, const std::string& message) {
@@ -77,37 +66,6 @@ Contact ReadContact(const Json& json, int row) {
           "no such kind: " + contact.kind);
   Require(contact.mu >= 0, "a negative mu");
   return contact;
-}
-
-Request ReadRequest(const std::string& line) {
-  const Json json = Json::parse(line);
-  Request request;
-  Require(json.at("dimension") == 2, "dimension: expected 2");
-  int rows = 0;
-  for (const Json& contact : json.at("contacts")) {
-    request.contacts.push_back(ReadContact(contact, rows));
-    rows += request.contacts.back().HasFrictionRow() ? 2 : 1;
-  }
-  request.A = json.at("A").get<std::vector<Vector>>();
-  request.b = json.at("b").get<Vector>();
-  Require(request.rows() == rows && static_cast<int>(request.A.size()) == rows,
-          "A, b: expected one row per variable");
-  for (const Vector& row : request.A)
-    Require(static_cast<int>(row.size()) == rows, "A: expected a square matrix");
-  const Json& options = json.at("options");
-  request.first_start = options.value("first_start", 0);
-  request.starts = options.at("starts");
-  request.max_iterations = options.at("max_iterations");
-  request.seed = options.at("seed");
-  const std::string formulation = options.at("formulation");
-  Require(formulation == "nlp" || formulation == "qp", "formulation: expected nlp or qp");
-  request.quadratic = formulation == "qp";
-  for (const Contact& contact : request.contacts) {
-    Require(!request.quadratic || contact.kind == "frictionless", "qp: expected frictionless contacts only");
-  }
-  Require(request.first_start >= 0 && request.starts >= 1 && request.max_iterations >= 1,
-          "options out of range");
-  return request;
 }
 
 // ---- The program ---------------------------------------------------------------------------------
@@ -125,17 +83,17 @@ struct Program {
 bool IsRough(const Contact& contact) { return contact.kind == "static" && contact.mu > 0; }
 
 // Variables contact by contact: fN, and for static contacts with friction f+, f-, l.
-Program MakeProgram(const Request& request) {
+Program MakeProgram(const std::vector<Contact>& contacts, const std::vector<Vector>& A, const Vector& b) {
   Program program;
-  const int rows = request.rows();
+  const int rows = static_cast<int>(b.size());
   int size = 0;
-  for (const Contact& contact : request.contacts) size += IsRough(contact) ? 4 : 1;
+  for (const Contact& contact : contacts) size += IsRough(contact) ? 4 : 1;
   program.M.assign(size, Vector(size, 0.0));
   program.q.assign(size, 0.0);
   program.free.assign(size, false);
   program.forces.assign(rows, Vector(size, 0.0));
   int j = 0;
-  for (const Contact& contact : request.contacts) {
+  for (const Contact& contact : contacts) {
     program.forces[contact.row][j] = 1;
     if (contact.kind == "sliding") program.forces[contact.row + 1][j] = -contact.mu * contact.slip;
     if (IsRough(contact)) {
@@ -145,13 +103,13 @@ Program MakeProgram(const Request& request) {
     j += IsRough(contact) ? 4 : 1;
   }
   const auto add_acceleration = [&](int to, int row, double sign) {
-    program.q[to] += sign * request.b[row];
+    program.q[to] += sign * b[row];
     for (int i = 0; i < rows; ++i) {
-      for (int k = 0; k < size; ++k) program.M[to][k] += sign * request.A[row][i] * program.forces[i][k];
+      for (int k = 0; k < size; ++k) program.M[to][k] += sign * A[row][i] * program.forces[i][k];
     }
   };
   j = 0;
-  for (const Contact& contact : request.contacts) {
+  for (const Contact& contact : contacts) {
     add_acceleration(j, contact.row, 1);
     program.free[j] = contact.kind == "bilateral";
     if (IsRough(contact)) {
@@ -166,6 +124,47 @@ Program MakeProgram(const Request& request) {
     j += IsRough(contact) ? 4 : 1;
   }
   return program;
+}
+
+// ---- Requests ------------------------------------------------------------------------------------
+
+struct Request {
+  std::vector<Contact> contacts;
+  Program program;
+  int first_start = 0, starts = 1, max_iterations = 200;
+  std::uint64_t seed = 0;
+  bool quadratic = false;
+};
+
+Request ReadRequest(const std::string& line) {
+  const Json json = Json::parse(line);
+  Request request;
+  Require(json.at("dimension") == 2, "dimension: expected 2");
+  int rows = 0;
+  for (const Json& contact : json.at("contacts")) {
+    request.contacts.push_back(ReadContact(contact, rows));
+    rows += request.contacts.back().HasFrictionRow() ? 2 : 1;
+  }
+  const auto A = json.at("A").get<std::vector<Vector>>();
+  const auto b = json.at("b").get<Vector>();
+  Require(static_cast<int>(b.size()) == rows && static_cast<int>(A.size()) == rows,
+          "A, b: expected one row per variable");
+  for (const Vector& row : A) Require(static_cast<int>(row.size()) == rows, "A: expected a square matrix");
+  request.program = MakeProgram(request.contacts, A, b);
+  const Json& options = json.at("options");
+  request.first_start = options.value("first_start", 0);
+  request.starts = options.at("starts");
+  request.max_iterations = options.at("max_iterations");
+  request.seed = options.at("seed");
+  const std::string formulation = options.at("formulation");
+  Require(formulation == "nlp" || formulation == "qp", "formulation: expected nlp or qp");
+  request.quadratic = formulation == "qp";
+  for (const Contact& contact : request.contacts) {
+    Require(!request.quadratic || contact.kind == "frictionless", "qp: expected frictionless contacts only");
+  }
+  Require(request.first_start >= 0 && request.starts >= 1 && request.max_iterations >= 1,
+          "options out of range");
+  return request;
 }
 
 Vector Slacks(const Program& program, const double* x) {
@@ -214,7 +213,8 @@ class Random {
 };
 
 // The first start is the same for every seed: all forces equal, no friction. Others differ in magnitude too.
-Vector Start(const Request& request, const Program& program, int start) {
+Vector Start(const Request& request, int start) {
+  const Program& program = request.program;
   static constexpr double kMagnitudes[] = {1, 0.1, 10};
   Random random(request.seed * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(start));
   const double magnitude = kMagnitudes[start % 3];
@@ -387,10 +387,11 @@ bool IsFinite(const Vector& x) {
 }
 
 // Starts until one ends at zero; otherwise the best.
-Answer Solve(Solver& solver, const Request& request, const Program& program) {
+Answer Solve(Solver& solver, const Request& request) {
+  const Program& program = request.program;
   Answer best;
   while (!best.solved && best.starts < request.starts) {
-    const Vector start = Start(request, program, request.first_start + best.starts++);
+    const Vector start = Start(request, request.first_start + best.starts++);
     const Solver::Result result = solver.Run(program, start, request.max_iterations);
     best.iterations += result.iterations;
     if (!IsFinite(result.x)) continue;
@@ -418,12 +419,12 @@ Vector Forces(const Program& program, const Vector& x) {
 Json Reply(Solver& solver, const std::string& line) {
   const auto begin = std::chrono::steady_clock::now();
   const Request request = ReadRequest(line);
-  const Program program = MakeProgram(request);
+  const Program& program = request.program;
   Answer answer;
   if (program.size() == 0) {
     answer.solved = true;  // Ipopt refuses a problem without variables
   } else {
-    answer = Solve(solver, request, program);
+    answer = Solve(solver, request);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   return {{"status", answer.solved ? "solved" : "not-solved"},

@@ -7,9 +7,9 @@
 
 #include "certify/claims/claims.h"
 #include "certify/claims/policy_ends.h"
-#include "certify/request/solve_sparse.h"
+#include "certify/request/entries.h"
 #include "corpus/json.h"
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {
@@ -61,13 +61,13 @@ void RequirePathArithmetic(const Wanted& wanted) {
 }
 
 // All but the arithmetic.
-Request NamedRequest(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
+Request NamedRequest(const Wanted& wanted, const AnyProblem& problem, const std::string& source) {
   Request request = wanted.request;
   const MethodFacts* facts = FindMethodFacts(wanted.method);
   request.method = facts != nullptr ? facts->name : kAutomatic;
   request.policy = ParsePolicy(wanted.policy);
   const FrictionLaw usual = wanted.method == "baraff" ? FrictionLaw::kBaraff : FrictionLaw::kCoulomb;
-  request.law = LawNamed(wanted.law, usual, problem.dimension, source, wanted.dashes);
+  request.law = LawNamed(wanted.law, usual, problem.dimension(), source, wanted.dashes);
   if (!AreSides(wanted.request.sides))
     throw InputError(
         fmt::format("{}sides: found {}, expected {}", wanted.dashes, wanted.request.sides, kSidesExpected));
@@ -87,42 +87,14 @@ void RequireLaw(const Wanted& wanted, const Request& request) {
                   wanted.dashes, request.method, Name(request.arithmetic)));
 }
 
-void RequireBuilt(const Request& request, const ExactProblem& problem, const std::string& source) {
-  const std::string refusal = Refusal(request.method, problem.dimension, request.arithmetic);
+void RequireBuilt(const Request& request, const AnyProblem& problem, const std::string& source) {
+  const std::string refusal = Refusal(request.method, problem.dimension(), request.arithmetic);
   if (!refusal.empty()) throw InputError(source + ": " + refusal);
 }
 
-}  // namespace
-
-Request RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
-  RequireMethod(wanted);
-  Request request = NamedRequest(wanted, problem, source);
-  const bool polygon = wanted.method == "baraff" && request.policy == ParsePolicy("slip=polygon");
-  if (problem.dimension == 3 && polygon) request.method = "complete";  // which that reading is
-  request.arithmetic =
-      wanted.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic : ArithmeticNamed(wanted);
-  RequireBuilt(request, problem, source);
-  RequireLaw(wanted, request);
-  return request;
-}
-
-Request PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source) {
-  RequirePathMethod(wanted);
-  Request request = NamedRequest(wanted, problem, source);
-  request.trace = true;
-  if (wanted.law.empty()) request.law = FrictionLaw::kBaraff;
-  if (!wanted.arithmetic.empty()) {
-    RequirePathArithmetic(wanted);
-    request.arithmetic = ArithmeticNamed(wanted);
-  } else if (!Refusal(request.method, problem.dimension, Arithmetic::kExact).empty()) {
-    request.arithmetic = Arithmetic::kDouble;
-  }
-  RequireBuilt(request, problem, source);
-  return request;
-}
-
-std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem) {
-  const auto methods = SparseMethods(problem);
+// The option that asks for all of A, as its name and value; empty where none does.
+std::string AsksForDense(const Wanted& wanted, const AnyProblem& problem) {
+  const auto methods = MethodsOfEntries(problem);
   const bool is_sparse = std::find(methods.begin(), methods.end(), wanted.method) != methods.end();
   const auto option = [&wanted](std::string_view name, const std::string& value) {
     return fmt::format("{}{} {}", wanted.dashes, name, value);
@@ -135,10 +107,49 @@ std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem) {
   return "";
 }
 
-Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
-                    const ExactFactors* factors, Stopwatch* watch) {
+void RequireMemory(const Wanted& wanted, const AnyProblem& problem, const std::string& source) {
+  if (problem.rows() <= kMostDenseRows) return;
+  const std::string dense = AsksForDense(wanted, problem);
+  if (dense.empty()) return;
+  throw InputError(source, "rows", std::to_string(problem.rows()),
+                   fmt::format("at most {} with {}, for which A is dense; without it A stays sparse",
+                               kMostDenseRows, dense));
+}
+
+}  // namespace
+
+Request RequestOf(const Wanted& wanted, const AnyProblem& problem, const std::string& source) {
+  RequireMethod(wanted);
+  RequireMemory(wanted, problem, source);
+  Request request = NamedRequest(wanted, problem, source);
+  const bool polygon = wanted.method == "baraff" && request.policy == ParsePolicy("slip=polygon");
+  if (problem.dimension() == 3 && polygon) request.method = "complete";  // which that reading is
+  request.arithmetic =
+      wanted.arithmetic.empty() ? UsualArithmetic(request.method, problem).arithmetic : ArithmeticNamed(wanted);
+  RequireBuilt(request, problem, source);
+  RequireLaw(wanted, request);
+  return request;
+}
+
+Request PathRequestOf(const Wanted& wanted, const AnyProblem& problem, const std::string& source) {
+  RequirePathMethod(wanted);
+  Request request = NamedRequest(wanted, problem, source);
+  request.trace = true;
+  if (wanted.law.empty()) request.law = FrictionLaw::kBaraff;
+  if (!wanted.arithmetic.empty()) {
+    RequirePathArithmetic(wanted);
+    request.arithmetic = ArithmeticNamed(wanted);
+  } else if (!Refusal(request.method, problem.dimension(), Arithmetic::kExact).empty()) {
+    request.arithmetic = Arithmetic::kDouble;
+  }
+  RequireBuilt(request, problem, source);
+  return request;
+}
+
+Solution SolveAsked(const AnyProblem& problem, const Request& request, const std::string& source,
+                    Stopwatch* watch) {
   try {
-    return SolveIn(problem, request, factors, watch);
+    return SolveIn(problem, request, watch);
   } catch (const InputError& error) {
     throw InputError(source + ": " + error.what());
   }

@@ -13,11 +13,8 @@
 #include "certify/claims/certificate.h"
 #include "certify/exact/enumerate.h"
 #include "certify/request/solve_in.h"
-#include "corpus/record/factors.h"
 
 namespace stiction {
-
-struct SparseProblem;  // corpus/record/sparse_problem.h
 
 // Of `request`, method, arithmetic, policy and law are set by their names here.
 struct Wanted {
@@ -34,22 +31,20 @@ inline constexpr std::string_view kSidesExpected = "a multiple of 4, at least 4"
 inline constexpr bool AreSides(int sides) { return sides >= 4 && sides % 4 == 0; }
 
 // The request, checked against the table of methods. A polygon reading of the published algorithm in space is
-// complete driving. InputError that names what is no name or does not fit the problem of `source`.
-Request RequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+// complete driving. InputError that names what is no name or does not fit the problem of `source`, as what asks
+// for all of an A that is too large for it.
+Request RequestOf(const Wanted& wanted, const AnyProblem& problem, const std::string& source);
 
 // Likewise of a run that is followed step by step: of a method with a path, under no other's name, and by
 // default exact where it is built so, otherwise over doubles.
-Request PathRequestOf(const Wanted& wanted, const ExactProblem& problem, const std::string& source);
+Request PathRequestOf(const Wanted& wanted, const AnyProblem& problem, const std::string& source);
 // What it can be followed in: not over intervals, which have bounds of the forces in place of forces.
 inline constexpr std::array<std::string_view, 5> kPathArithmetics = {"exact", "float", "double", "quad",
                                                                      "filtered"};
 
-// The option that does not go with an A that stays sparse, as its name and value; empty where all do.
-std::string AsksForDense(const Wanted& wanted, const SparseProblem& problem);
-
 // SolveIn, whose InputError then names the source.
-Solution SolveAsked(const ExactProblem& problem, const Request& request, const std::string& source,
-                    const ExactFactors* factors = nullptr, Stopwatch* watch = nullptr);
+Solution SolveAsked(const AnyProblem& problem, const Request& request, const std::string& source,
+                    Stopwatch* watch = nullptr);
 
 // ---- Certificates ----
 

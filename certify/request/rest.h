@@ -14,10 +14,12 @@
 #ifndef STICTION_CERTIFY_REQUEST_REST_H_
 #define STICTION_CERTIFY_REQUEST_REST_H_
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "certify/exact/properties.h"
+#include "certify/exact/solve.h"
 
 namespace stiction {
 
@@ -31,6 +33,16 @@ struct RestingForces {
 // that can rest.
 std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
                                           const ExactVector& a);
+
+// `auto` prefers, of several solutions, one whose contacts rest; in space, of solutions whose contacts slip,
+// the one of Newton's method in the space of bodies if it moves less. The word is of the one that was found
+// first.
+void PreferRest(const AnyProblem& problem, const Request& request, ExactAnswer& answer);
+
+// The same of doubles: forces that rest are found exactly, and rounded. `rounded`: the problem that was solved;
+// file(): that of which it is a rounding.
+void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
+                const Request& request, InexactAnswer& answer);
 
 }  // namespace stiction
 

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "certify/exact/solve.h"
-#include "corpus/record/factors.h"
 #include "corpus/stopwatch.h"
 
 namespace stiction {
@@ -52,14 +51,16 @@ struct ArithmeticChoice {
   Arithmetic arithmetic = Arithmetic::kExact;
   std::string why;
 };
-ArithmeticChoice UsualArithmetic(std::string_view method, const ExactProblem& problem);
+ArithmeticChoice UsualArithmetic(std::string_view method, const AnyProblem& problem);
 
-// Requires Refusal(...).empty(). RangeError (corpus/rounded.h) for a number that the arithmetic does not hold;
-// InputError where the published algorithm in space has no such reading.
-// `factors`: of the same problem, where it has some. `watch` starts anew once the problem is in the numbers of
-// a floating arithmetic.
-Solution SolveIn(const ExactProblem& problem, const Request& request, const ExactFactors* factors = nullptr,
-                 Stopwatch* watch = nullptr);
+// Requires Refusal(...).empty(), and TakesEntries(...) of a problem that stays sparse. RangeError
+// (corpus/rounded.h) for a number that the arithmetic does not hold; InputError where the published algorithm
+// in space has no such reading. `watch` starts anew once the problem is in the numbers of a floating
+// arithmetic.
+Solution SolveIn(const AnyProblem& problem, const Request& request, Stopwatch* watch = nullptr);
+
+// `auto` over doubles as if all of A were a burden: by its entries or in its factors, whatever its size.
+InexactAnswer SolveWithoutA(const AnyProblem& problem, const Request& request);
 
 // The same of doubles over doubles, with no rationals but where it takes them: the answer of SolveIn,
 // arithmetic kDouble, of the rationals that they are. Requires finite numbers.

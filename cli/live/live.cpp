@@ -58,7 +58,7 @@ void RequireFew(const ProblemFile& file) {
 // Over doubles alone.
 Solution SolvePublishedInSpace(const ExactProblem& problem, const Request& request) {
   try {
-    RequireReading(problem, request);
+    RequireReading(problem.dimension, request);
     return {.answer = Solve(Rounded<double>(problem), request)};
   } catch (const InputError& error) {
     throw InputError(std::string("problem: ") + error.what());
@@ -69,7 +69,7 @@ FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
   Request request{.method = path.method, .trace = true};
   request.policy = ParsePolicy(path.policy);
   request.limits = path.limits;
-  if (file.problem.dimension == 2 || path.method != "baraff")
+  if (file.problem.dimension() == 2 || path.method != "baraff")
     return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
   FollowedRun run = Followed(path, file, SolvePublishedInSpace(file.problem, request));
   run.end += "; over doubles alone: stiction replay says what is proved";

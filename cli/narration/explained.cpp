@@ -44,17 +44,16 @@ constexpr std::int64_t kPrograms = 20000;  // linear programs of an enumeration
 // ---- What is found ---------------------------------------------------------------------------------
 
 // Contacts by kind, the least and the largest mu, the least and the largest A_ii that is not zero.
-void AddContacts(const SparseProblem& problem, Json& found) {
+void AddContacts(const AnyProblem& problem, Json& found) {
   Json kinds = Json::object();
   std::vector<Rational> mu, diagonal;
-  for (const auto& contact : problem.contacts) {
+  for (const auto& contact : problem.contacts()) {
     const std::string kind(Name(contact.kind));
     kinds[kind] = kinds.value(kind, 0) + 1;
     if (contact.HasFrictionRows()) mu.push_back(contact.mu);
   }
-  for (const auto& [at, value] : problem.A) {
-    if (at.first == at.second && value != 0) diagonal.push_back(value);
-  }
+  for (const Rational& value : problem.entries().A.diagonal().eval())
+    if (value != 0) diagonal.push_back(value);
   found["kinds"] = kinds;
   const auto add = [&found](const char* name, const std::vector<Rational>& numbers) {
     if (numbers.empty()) return;
@@ -110,14 +109,14 @@ Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOption
   Wanted wanted;
   wanted.method = method;
   wanted.request.limits = o.limits;
-  Request request = RequestOf(wanted, file.problem, o.file);
-  const auto factors = method == kNewtonBodies ? FactorsBehind(file) : file.factors;
+  const AnyProblem problem = method == kNewtonBodies ? InFactors(file) : file.problem;
+  const Request request = RequestOf(wanted, problem, o.file);
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
   const auto add = [&run](const auto& answer) {
     run.update(EndToJson(answer));
     if (answer.moves_elsewhere) run["unique_accelerations"] = false;
   };
-  std::visit(add, SolveAsked(file.problem, request, o.file, factors ? &*factors : nullptr).answer);
+  std::visit(add, SolveAsked(problem, request, o.file).answer);
   return run;
 }
 
@@ -181,10 +180,10 @@ Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::strin
   const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   ClaimOptions options;
-  options.policies = PoliciesAsked(policy, file.problem.dimension);
+  options.policies = PoliciesAsked(policy, problem.dimension);
   options.limits = o.limits;
   options.enumeration.programs = kPrograms;
-  options.factors = file.factors ? &*file.factors : nullptr;
+  options.factors = file.problem.factors();
   const std::string stem = std::filesystem::path(o.file).stem().string();
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;
@@ -252,18 +251,16 @@ Json NextOf(const Json& found, const std::string& file) {
 
 }  // namespace
 
-Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const ExplainOptions& o) {
-  const auto* file = std::get_if<ProblemFile>(&read);
-  const SparseProblem sparse = file != nullptr ? ToSparse(*file) : WithMatrix(std::get<SparseProblem>(read));
+Json Explained(const ProblemFile& file, const ExplainOptions& o) {
   Json found = {{"file", o.file}};
-  AddContacts(sparse, found);
-  found["survey"] = Surveyed(sparse, o.file, {.limits = o.limits});
-  if (file != nullptr && file->problem.rows() <= kFewRows) {
-    const ExactProblem& problem = file->problem;
+  AddContacts(file.problem, found);
+  found["survey"] = Surveyed(file.problem, {.limits = o.limits});
+  if (file.problem.rows() <= kFewRows) {
+    const ExactProblem& problem = file.problem;
     std::string policy = "paper";
     found["rank"] = RankOf(problem);
-    found["methods"] = MethodsOn(*file, o);
-    found["solve"] = EndByDefault(*file, o);
+    found["methods"] = MethodsOn(file, o);
+    found["solve"] = EndByDefault(file, o);
     if (problem.contacts.size() <= kFewContacts) {
       const Json policies = PoliciesOn(problem, o);
       if (!policies.is_null()) found["policies"] = policies;
@@ -271,7 +268,7 @@ Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const Expla
       AddMargins(problem, o, found);
       if (policies.contains("loops") && !policies["loops"].is_null()) policy = policies["loops"]["policy"];
     }
-    found["claims"] = ClaimsOf(*file, o, policy);
+    found["claims"] = ClaimsOf(file, o, policy);
   }
   found["next"] = NextOf(found, o.file);
   return found;

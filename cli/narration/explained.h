@@ -6,11 +6,9 @@
 #define STICTION_CLI_NARRATION_EXPLAINED_H_
 
 #include <string>
-#include <variant>
 
 #include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
-#include "corpus/record/sparse_problem.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
@@ -21,7 +19,7 @@ struct ExplainOptions {
 };
 
 // What `explain --json` prints.
-Json Explained(const std::variant<ProblemFile, SparseProblem>& read, const ExplainOptions& o);
+Json Explained(const ProblemFile& file, const ExplainOptions& o);
 
 // The same in lines that fit the terminal, but for commands.
 std::string ExplainedText(const Json& found);

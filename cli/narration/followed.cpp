@@ -55,7 +55,7 @@ Narration Narrate(const std::string& method, const ProblemFile& file, const Solu
 
 Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,
                   bool initial) {
-  Json json = SolutionToJson(solution, file.problem.dimension);
+  Json json = SolutionToJson(solution, file.problem.dimension());
   if (!json.contains("start")) json["start"] = json["period"] = 0;
   json["method"] = o.method;
   if (o.method == "baraff") json["policy"] = PolicyName(ParsePolicy(o.policy));

@@ -26,8 +26,9 @@ std::string ListText(const Numbers& numbers, FractionText fractions = FractionTe
 // Names of the variables of a problem, by row.
 class VariableTexts {
  public:
-  explicit VariableTexts(const ExactProblem& problem) : dimension_(problem.dimension) {
-    layout_.Assign(problem.contacts, problem.dimension);
+  explicit VariableTexts(const ExactProblem& problem) : VariableTexts(problem.contacts, problem.dimension) {}
+  VariableTexts(const std::vector<Contact<Rational>>& contacts, int dimension) : dimension_(dimension) {
+    layout_.Assign(contacts, dimension);
   }
 
   const RowLayout<Eigen::Dynamic>& layout() const { return layout_; }

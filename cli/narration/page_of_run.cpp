@@ -15,7 +15,7 @@ bool EveryPolicyEndsSo(const ProblemFile& file, const Solution& solution, const 
   constexpr std::size_t kFewContacts = 8;  // a run of every policy takes a moment
   const bool expected = file.expect.size() == 1 && file.expect.begin()->first == "*" &&
                         file.expect.begin()->second == Name(solution.outcome());
-  return expected && file.problem.dimension == 2 && file.problem.contacts.size() <= kFewContacts &&
+  return expected && file.problem.dimension() == 2 && file.problem.contacts().size() <= kFewContacts &&
          AllEndIn(solution.outcome(), file.problem, PlanarGrid(), limits);
 }
 

@@ -19,7 +19,8 @@
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
-#include "certify/request/solve_sparse.h"
+#include "corpus/record/asymmetry.h"
+#include "corpus/record/factors.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
 #include "solver/problem/check.h"
@@ -36,10 +37,11 @@ constexpr std::int64_t kSurveyPrograms = 10000;  // linear programs of an enumer
 
 // ---- Assumptions -----------------------------------------------------------------------------
 
-Json AsymmetryToJson(const SparseProblem& problem) {
+Json AsymmetryToJson(const AnyProblem& problem) {
   const Asymmetry largest = LargestAsymmetry(problem);
   Rational scale = 0;
-  for (const auto& [at, value] : problem.A) scale = std::max<Rational>(scale, abs(value));
+  ForEachEntry(problem.entries().A,
+               [&scale](int, int, const Rational& value) { scale = std::max<Rational>(scale, abs(value)); });
   const Rational relative = scale == 0 ? scale : Rational(largest.difference / scale);
   return {{"difference", ToDouble(largest.difference)},
           {"relative", ToDouble(relative)},
@@ -55,8 +57,8 @@ Rational RayleighQuotient(const NegativeCurvature& negative) {
 }
 
 // `psd`: true, false, or null for undecided. Bounds are relative to the largest A_ii.
-Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
-  if (problem.factors) return {{"psd", true}, {"how", "factors"}};
+Json CurvatureToJson(const AnyProblem& problem, bool exactly) {
+  if (problem.factors() != nullptr) return {{"psd", true}, {"how", "factors"}};
   const CurvatureBounds bounds = BoundCurvature(problem);
   const double scale = bounds.scale > 0 ? bounds.scale : 1;
   Json json = {{"psd", nullptr}, {"how", "bound"}};
@@ -66,8 +68,8 @@ Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProb
   if (bounds.negative) {
     json["psd"] = false;
     json["how"] = "exact";
-  } else if (dense) {
-    const auto decision = DecideSemidefinite(dense->A);
+  } else if (exactly) {
+    const auto decision = DecideSemidefinite(problem.dense().A);
     const auto* negative = std::get_if<NegativeCurvature>(&decision);
     json["psd"] = negative == nullptr;
     json["how"] = "exact";
@@ -78,15 +80,15 @@ Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProb
 
 // `in-range`: true, false, or null for undecided. `distance` is an upper bound, `rough distance` none
 // (bounds.h).
-Json RangeToJson(const SparseProblem& problem, const std::optional<ExactProblem>& dense) {
+Json RangeToJson(const AnyProblem& problem, bool exactly) {
   const RangeDistance bound = BoundRangeDistance(problem);
   Json json = {{"in-range", nullptr}, {"distance", bound.distance}, {"rough distance", bound.rough}};
   const bool regular = problem.rows() <= kMostDenseRows && IsRegularModuloPrime(problem);
-  const bool by_factors = problem.factors && IsInRangeByFactors(*problem.factors);
+  const bool by_factors = problem.factors() != nullptr && IsInRangeByFactors(*problem.factors());
   if (regular || by_factors || json["distance"] == 0) {
     json["in-range"] = true;
-  } else if (dense) {
-    json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(dense->A, dense->b));
+  } else if (exactly) {
+    json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(problem.dense().A, problem.b()));
   }
   json["regular"] = regular;
   return json;
@@ -174,9 +176,9 @@ bool IsDecided(const Json& runs) {
 }
 
 // A stays sparse.
-Json RunSparse(const SparseProblem& problem, const Limits& limits) {
+Json RunSparse(const AnyProblem& problem, const Limits& limits) {
   const Stopwatch watch(CLOCK_MONOTONIC);
-  const InexactAnswer answer = SolveSparse(problem, {.limits = limits});
+  const InexactAnswer answer = SolveWithoutA(problem, {.arithmetic = Arithmetic::kDouble, .limits = limits});
   Json run = RunToJson(answer, watch);
   if (answer.errors) run["residual"] = answer.residual();
   return run;
@@ -337,14 +339,13 @@ Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
   return runs;
 }
 
-Json Runs(const SparseProblem& problem, const std::string& source, const SurveyScope& o) {
-  const bool planar = problem.dimension == 2;
+Json Runs(const AnyProblem& problem, const SurveyScope& o) {
+  const bool planar = problem.dimension() == 2;
   Json runs = Json::array();
-  if (planar ? problem.contacts.size() > kExactContacts : problem.rows() > o.rows)
+  if (planar ? problem.contacts().size() > kExactContacts : problem.rows() > o.rows)
     runs.push_back(RunSparse(problem, o.limits));
   if (problem.rows() <= o.rows) {
-    const ExactProblem dense = ToDense(problem, source).problem;
-    for (Json& run : planar ? PlanarRuns(dense, o) : SpatialRuns(dense, o.limits))
+    for (Json& run : planar ? PlanarRuns(problem, o) : SpatialRuns(problem, o.limits))
       runs.push_back(std::move(run));
   }
   if (runs.empty())
@@ -352,32 +353,28 @@ Json Runs(const SparseProblem& problem, const std::string& source, const SurveyS
   return runs;
 }
 
+void AddFacts(const AnyProblem& problem, const SurveyScope& o, Json& entry) {
+  const bool exactly = !o.suspicions && problem.contacts().size() <= kExactContacts;
+  entry["curvature"] = CurvatureToJson(problem, exactly);
+  entry["range"] = RangeToJson(problem, exactly);
+  entry["meets assumptions"] = MeetsAll(entry);
+  entry["runs"] = Runs(problem, o);
+}
+
 }  // namespace
 
 std::string ShortText(double x) { return x == 0 ? "0" : fmt::format("{:.0e}", x); }
 
-Json Surveyed(SparseProblem problem, const std::string& source, const SurveyScope& o) {
-  const bool small = !o.suspicions && problem.contacts.size() <= kExactContacts;
-  const auto dense = [&] { return ToDense(problem, source).problem; };
-  std::optional<ExactProblem> exact;
-  if (small) exact = dense();
+Json Surveyed(const AnyProblem& problem, const SurveyScope& o) {
   Json entry = {
-      {"contacts", problem.contacts.size()}, {"dimension", problem.dimension}, {"rows", problem.rows()}};
+      {"contacts", problem.contacts().size()}, {"dimension", problem.dimension()}, {"rows", problem.rows()}};
   entry["asymmetry"] = AsymmetryToJson(problem);
-  entry["curvature"] = CurvatureToJson(problem, exact);
-  entry["range"] = RangeToJson(problem, exact);
-  entry["meets assumptions"] = MeetsAll(entry);
-  entry["runs"] = Runs(problem, source, o);
+  AddFacts(problem, o, entry);
   const double relative = entry["asymmetry"]["relative"].get<double>();
-  const bool far = problem.dimension == 2 && relative > kMostRounding;
+  const bool far = problem.dimension() == 2 && relative > kMostRounding;
   if (relative == 0 || far) return entry;
-  Symmetrize(problem);
-  if (small) exact = dense();
   Json symmetrized = {{"asymmetry", {{"difference", 0.0}}}};
-  symmetrized["curvature"] = CurvatureToJson(problem, exact);
-  symmetrized["range"] = RangeToJson(problem, exact);
-  symmetrized["meets assumptions"] = MeetsAll(symmetrized);
-  symmetrized["runs"] = Runs(problem, source, o);
+  AddFacts(Symmetrized(problem), o, symmetrized);
   entry["symmetrized"] = symmetrized;
   return entry;
 }

@@ -6,8 +6,8 @@
 
 #include <string>
 
+#include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
-#include "corpus/record/sparse_problem.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
@@ -22,7 +22,7 @@ struct SurveyScope {
 
 // An entry of `survey --json` without its file. `symmetrized` has the same of (A + A')/2, where A - A' may be
 // rounding.
-Json Surveyed(SparseProblem problem, const std::string& source, const SurveyScope& scope);
+Json Surveyed(const AnyProblem& problem, const SurveyScope& scope);
 
 // "3e-16".
 std::string ShortText(double x);

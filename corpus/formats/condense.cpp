@@ -17,13 +17,10 @@ namespace {
 constexpr Eigen::Index kMostBlock = 24;  // rows of a block whose inverse is kept
 
 // By the factors; empty where M has none that are kept.
-std::optional<ExactFactors> FactorsOf(const GlobalEquations& equations, const SparseProblem& problem) {
+std::optional<ExactFactors> FactorsOf(const GlobalEquations& equations, int dimension,
+                                      const std::vector<Contact<Rational>>& contacts) {
   const auto velocities = equations.f.size();
-  std::vector<Eigen::Triplet<Rational>> entries;
-  for (const auto& [at, value] : equations.M) entries.emplace_back(at.first, at.second, value);
-  Eigen::SparseMatrix<Rational> M(velocities, velocities);
-  M.setFromTriplets(entries.begin(), entries.end());
-  FactorParts parts{{}, BlocksOf(M), equations.f, equations.w};
+  FactorParts parts{{}, BlocksOf(ToEigen(equations.M, velocities, velocities)), equations.f, equations.w};
   const bool fits = std::all_of(parts.M.begin(), parts.M.end(), [](const ExactProblem::Matrix& block) {
     return block.rows() <= kMostBlock && block == block.transpose();
   });
@@ -37,7 +34,7 @@ std::optional<ExactFactors> FactorsOf(const GlobalEquations& equations, const Sp
     at += static_cast<int>(block.rows());
   }
   for (const auto& [place, value] : equations.B) parts.J.emplace(std::pair(place.second, place.first), value);
-  return MakeFactors(problem.dimension, problem.contacts, std::move(parts));
+  return MakeFactors(dimension, contacts, std::move(parts));
 }
 
 using SparseRow = std::map<int, Rational>;
@@ -73,13 +70,11 @@ std::optional<int> Eliminate(std::vector<SparseRow>& K, int count) {
 
 }  // namespace
 
-std::optional<int> Condense(const GlobalEquations& equations, SparseProblem& problem) {
-  if (auto factors = FactorsOf(equations, problem)) {
-    problem.b = factors->b;
-    problem.factors = std::move(factors);
-    if (!StaysSparse(problem.rows(), true)) problem = WithMatrix(std::move(problem));
-    problem.origin["factors"] = "J = B', M, w = inv(M) f, c = w, of M v = B r + f, u = B'v + w";
-    return std::nullopt;
+std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dimension,
+                                       std::vector<Contact<Rational>> contacts, Json& origin) {
+  if (auto factors = FactorsOf(equations, dimension, contacts)) {
+    origin["factors"] = "J = B', M, w = inv(M) f, c = w, of M v = B r + f, u = B'v + w";
+    return AnyProblem(*std::move(factors));
   }
   // Elimination of v from [M, -B, -f; B', 0, w].
   const int first = static_cast<int>(equations.f.size()), rows = static_cast<int>(equations.w.size()),
@@ -91,16 +86,17 @@ std::optional<int> Condense(const GlobalEquations& equations, SparseProblem& pro
     K[first + at.second][at.first] = value;
   }
   for (int i = 0; i < first; ++i) K[i][last] = -equations.f[i];
-  if (const auto row = Eliminate(K, first)) return row;
-  problem.b = equations.w;
+  if (const auto row = Eliminate(K, first)) return *row;
+  SparseMatrix A;
+  ExactProblem::Vector b = equations.w;
   for (int i = 0; i < rows; ++i) {
     for (const auto& [j, value] : K[first + i]) {
-      if (j == last) problem.b[i] += value;
-      if (first <= j && j < last) problem.A[{i, j - first}] = value;
+      if (j == last) b[i] += value;
+      if (first <= j && j < last) A[{i, j - first}] = value;
     }
   }
-  problem.origin["condensed"] = "A = B' inv(M) B, over rationals";
-  return std::nullopt;
+  origin["condensed"] = "A = B' inv(M) B, over rationals";
+  return AnyProblem(ExactEntries{dimension, std::move(contacts), ToEigen(A, rows, rows), std::move(b)});
 }
 
 }  // namespace stiction

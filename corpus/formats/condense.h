@@ -10,9 +10,10 @@
 #ifndef STICTION_CORPUS_FORMATS_CONDENSE_H_
 #define STICTION_CORPUS_FORMATS_CONDENSE_H_
 
-#include <optional>
+#include <variant>
+#include <vector>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 
@@ -22,9 +23,10 @@ struct GlobalEquations {
   ExactProblem::Vector f, w;
 };
 
-// Sets A and b, or the factors, of a problem that has its contacts. The row of M whose pivot is zero, if one
-// is: then it has no inverse, or is not definite, and nothing is set.
-std::optional<int> Condense(const GlobalEquations& equations, SparseProblem& problem);
+// The problem of these contacts, by its factors or by the entries of A; `origin` says how. Otherwise the row of
+// M whose pivot is zero: then it has no inverse, or is not definite.
+std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dimension,
+                                       std::vector<Contact<Rational>> contacts, Json& origin);
 
 }  // namespace stiction
 

@@ -98,14 +98,13 @@ class FclibReader {
     if (!file_.valid()) throw InputError(source, "/", "no HDF5 file that can be read", "one");
   }
 
-  SparseProblem Read() {
+  ProblemFile Read() {
     const bool local = GroupOfProblem() == "fclib_local";
     group_ = local ? "/fclib_local" : "/fclib_global";
     problem_.dimension = Integer("spacedim", 2, 3);
-    problem_.origin = {{"format", "fclib"}, {"storage", local ? "local" : "global"}};
+    file_of_.origin = {{"format", "fclib"}, {"storage", local ? "local" : "global"}};
     local ? Local() : Global();
-    std::erase_if(problem_.A, [](const auto& entry) { return entry.second == 0; });
-    return std::move(problem_);
+    return std::move(file_of_);
   }
 
  private:
@@ -333,13 +332,16 @@ class FclibReader {
     MakeContacts("W", rows, R.rows);
     problem_.b.head(rows) = Vector("q", rows);
     problem_.b.tail(R.rows) = s;
+    SparseMatrix A;
     for (const auto& [i, j, value] : W.entries)
-      if (value != 0) problem_.A[{i, j}] += Rational(value);
-    for (const auto& [i, j, value] : R.entries) problem_.A[{rows + i, rows + j}] += Rational(value);
+      if (value != 0) A[{i, j}] += Rational(value);
+    for (const auto& [i, j, value] : R.entries) A[{rows + i, rows + j}] += Rational(value);
     for (const auto& [i, j, value] : V.entries) {
-      problem_.A[{i, rows + j}] += Rational(value);
-      problem_.A[{rows + j, i}] += Rational(value);
+      A[{i, rows + j}] += Rational(value);
+      A[{rows + j, i}] += Rational(value);
     }
+    problem_.A = ToEigen(A, problem_.rows(), problem_.rows());
+    file_of_.problem = std::move(problem_);
   }
 
   // M v = [H G] (r, l) + f, (u, 0) = [H G]'v + (w, b).
@@ -362,8 +364,10 @@ class FclibReader {
     Add(M, 0, equations.M);
     Add(H, 0, equations.B);
     Add(G, H.columns, equations.B);
-    if (const auto row = Condense(equations, problem_))
+    const auto made = Condense(equations, problem_.dimension, std::move(problem_.contacts), *file_of_.origin);
+    if (const int* row = std::get_if<int>(&made))
       Refuse(Path("M"), fmt::format("a zero pivot in row {}", *row), "a positive definite matrix");
+    file_of_.problem = std::get<AnyProblem>(made);
   }
 
   // The entries, so many columns further; those listed more than once add up.
@@ -377,7 +381,8 @@ class FclibReader {
   Handle file_;
   std::size_t bytes_ = 0;  // of all numbers so far
   std::string group_;
-  SparseProblem problem_;
+  ExactEntries problem_;
+  ProblemFile file_of_;
 };
 
 // ---- Writing ---------------------------------------------------------------------------------
@@ -400,7 +405,7 @@ class FclibWriter {
     return image;
   }
 
-  void Write(const SparseProblem& problem) {
+  void Write(const ExactEntries& problem, const std::string& title) {
     int rows = 0;
     std::vector<double> mu;
     for (const auto& contact : problem.contacts) {
@@ -418,7 +423,7 @@ class FclibWriter {
     WriteMatrix("/fclib_local/W", problem, {0, rows}, {0, rows});
     Doubles("/fclib_local/vectors/q", Part(problem.b, 0, rows));
     Doubles("/fclib_local/vectors/mu", mu);
-    Text("/fclib_local/info/title", problem.name);
+    Text("/fclib_local/info/title", title);
     if (equations == 0) return;
     WriteMatrix("/fclib_local/V", problem, {0, rows}, {rows, equations});
     WriteMatrix("/fclib_local/R", problem, {rows, equations}, {rows, equations});
@@ -477,14 +482,14 @@ class FclibWriter {
   }
 
   // The block `rows` x `columns` of A.
-  void WriteMatrix(const std::string& path, const SparseProblem& problem, Range rows, Range columns) const {
+  void WriteMatrix(const std::string& path, const ExactEntries& problem, Range rows, Range columns) const {
     const bool by_columns = storage_ != FclibStorage::kRows;
     std::map<std::pair<int, int>, double> lines;  // by line, place in it
-    for (const auto& [at, value] : problem.A) {
-      if (!rows.Has(at.first) || !columns.Has(at.second)) continue;
-      const int i = at.first - rows.first, j = at.second - columns.first;
+    ForEachEntry(problem.A, [&](int row, int column, const Rational& value) {
+      if (!rows.Has(row) || !columns.Has(column)) return;
+      const int i = row - rows.first, j = column - columns.first;
       lines[by_columns ? std::pair(j, i) : std::pair(i, j)] = Double(value);
-    }
+    });
     std::vector<int> p, i, pointers(1 + (by_columns ? columns.count : rows.count));
     std::vector<double> x;
     for (const auto& [at, value] : lines) {
@@ -512,16 +517,16 @@ class FclibWriter {
 
 }  // namespace
 
-SparseProblem ParseFclib(std::string text, const std::string& source) {
+ProblemFile ParseFclib(std::string text, const std::string& source) {
   if (text.empty()) throw InputError(source, "/", "an empty file", "an HDF5 file");
   Silence();
   return FclibReader(std::move(text), source).Read();
 }
 
-std::string PrintFclib(const SparseProblem& problem, FclibStorage storage) {
+std::string PrintFclib(const ExactEntries& problem, const std::string& title, FclibStorage storage) {
   Silence();
   FclibWriter writer(storage);
-  writer.Write(problem);
+  writer.Write(problem, title);
   return writer.Image();
 }
 

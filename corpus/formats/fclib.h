@@ -27,7 +27,7 @@
 
 #include <string>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 
@@ -35,11 +35,11 @@ enum class FclibStorage { kColumns, kRows, kTriplet };
 
 // `text`: the bytes of the file. InputError names the source, the place in it, what was found and what was
 // expected.
-SparseProblem ParseFclib(std::string text, const std::string& source);
+ProblemFile ParseFclib(std::string text, const std::string& source);
 
 // The bytes of a file. Requires static contacts first and bilateral ones behind them, and numbers that are
 // doubles.
-std::string PrintFclib(const SparseProblem& problem, FclibStorage storage);
+std::string PrintFclib(const ExactEntries& problem, const std::string& title, FclibStorage storage);
 
 }  // namespace stiction
 

@@ -29,34 +29,31 @@ const PublishedFormat& FormatNamed(const std::string& name) {
 
 // ---- What a format cannot hold ----------------------------------------------------------------
 
-void RequireContacts(const SparseProblem& problem, const std::string& format) {
+void RequireContacts(const AnyProblem& problem, const std::string& source, const std::string& format) {
   const bool lcp = format == "siconos-lcp", fclib = format == "fclib";
   const char* expected = lcp     ? "frictionless: an LCP has no others"
                          : fclib ? "static contacts, and bilateral ones behind them"
                                  : "static: a friction problem has no others";
   bool bilateral = false;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const ContactKind kind = problem.contacts[i].kind;
+  for (std::size_t i = 0; i < problem.contacts().size(); ++i) {
+    const ContactKind kind = problem.contacts()[i].kind;
     bilateral |= kind == ContactKind::kBilateral;
     const bool fits = lcp         ? kind == ContactKind::kFrictionless
                       : !fclib    ? kind == ContactKind::kStatic
                       : bilateral ? kind == ContactKind::kBilateral
                                   : kind == ContactKind::kStatic;
-    if (!fits)
-      throw InputError(problem.name, fmt::format("contacts[{}].kind", i), std::string(Name(kind)), expected);
+    if (!fits) throw InputError(source, fmt::format("contacts[{}].kind", i), std::string(Name(kind)), expected);
   }
 }
 
 // FCLIB writes V alone, for V and V'.
-void RequireMirrorImage(const SparseProblem& problem) {
+void RequireMirrorImage(const ExactEntries& problem, const std::string& source) {
   int rows = 0;
   for (const auto& contact : problem.contacts) rows += contact.HasFrictionRows() ? problem.dimension : 0;
-  for (const auto& [at, value] : problem.A) {
+  for (const auto& [at, value] : ByRows(problem.A)) {
     const auto [i, j] = at;
-    if ((i < rows) == (j < rows)) continue;
-    const auto mirror = problem.A.find({j, i});
-    if (mirror != problem.A.end() && mirror->second == value) continue;
-    throw InputError(problem.name, fmt::format("A[{}][{}]", i, j), "an entry unlike its mirror",
+    if ((i < rows) == (j < rows) || problem.A.coeff(j, i) == value) continue;
+    throw InputError(source, fmt::format("A[{}][{}]", i, j), "an entry unlike its mirror",
                      "A_ij = A_ji between static and bilateral contacts");
   }
 }
@@ -89,14 +86,15 @@ class Rounder {
   ExportReport report_;
 };
 
-ExportReport RoundAll(SparseProblem& problem, Rounding rounding) {
-  Rounder rounder(problem.name, rounding);
-  for (auto& [at, value] : problem.A) rounder.Round(value, fmt::format("A[{}][{}]", at.first, at.second));
+ExportReport RoundAll(ExactEntries& problem, const std::string& source, Rounding rounding) {
+  Rounder rounder(source, rounding);
+  SparseMatrix A = ByRows(problem.A);
+  for (auto& [at, value] : A) rounder.Round(value, fmt::format("A[{}][{}]", at.first, at.second));
+  problem.A = ToEigen(A, problem.rows(), problem.rows());
   for (int i = 0; i < problem.rows(); ++i) rounder.Round(problem.b[i], fmt::format("b[{}]", i));
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     rounder.Round(problem.contacts[i].mu, fmt::format("contacts[{}].mu", i));
   }
-  std::erase_if(problem.A, [](const auto& entry) { return entry.second == 0; });
   return rounder.report();
 }
 
@@ -122,7 +120,7 @@ const std::vector<PublishedFormat>& PublishedFormats() {
   return formats;
 }
 
-SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format) {
+ProblemFile ReadPublished(const std::filesystem::path& file, const std::string& format) {
   if (!format.empty()) FormatNamed(format);
   return ParsePublished(ReadText(file), file, format);
 }
@@ -133,9 +131,9 @@ bool LooksPublished(std::string_view text) {
          (at != text.npos && std::string_view("+-.0123456789").find(text[at]) != text.npos);
 }
 
-SparseProblem ParsePublished(std::string text, const std::filesystem::path& file, const std::string& format) {
+ProblemFile ParsePublished(std::string text, const std::filesystem::path& file, const std::string& format) {
   const std::string source = file.string();
-  SparseProblem problem;
+  ProblemFile problem;
   if (format == "fclib" || (format.empty() && text.starts_with(kHdf5Signature))) {
     problem = ParseFclib(std::move(text), source);
   } else {
@@ -144,11 +142,13 @@ SparseProblem ParsePublished(std::string text, const std::filesystem::path& file
     problem = ParseSiconos(text, kind, source);
   }
   problem.name = NameOf(file.stem());
-  problem.origin["file"] = NameOf(file);
+  (*problem.origin)["file"] = NameOf(file);
+  const bool is_small = problem.problem.factors() == nullptr && !StaysSparse(problem.problem);
+  if (is_small) problem.problem = problem.problem.dense();
   return problem;
 }
 
-ExportReport WritePublished(const SparseProblem& problem, const std::filesystem::path& file,
+ExportReport WritePublished(const ProblemFile& problem, const std::filesystem::path& file,
                             const std::string& format, const std::string& storage, Rounding rounding) {
   const PublishedFormat& row = FormatNamed(format);
   const std::string chosen = storage.empty() ? row.storages.front() : storage;
@@ -156,12 +156,12 @@ ExportReport WritePublished(const SparseProblem& problem, const std::filesystem:
     throw InputError(
         fmt::format("storage '{}': expected one of {} for {}", storage, fmt::join(row.storages, ", "), format));
   }
-  RequireContacts(problem, format);
-  if (format == "fclib") RequireMirrorImage(problem);
-  SparseProblem rounded = problem;
-  const ExportReport report = RoundAll(rounded, rounding);
+  RequireContacts(problem.problem, problem.name, format);
+  ExactEntries rounded = problem.problem.entries();
+  if (format == "fclib") RequireMirrorImage(rounded, problem.name);
+  const ExportReport report = RoundAll(rounded, problem.name, rounding);
   if (format == "fclib") {
-    WriteText(file, PrintFclib(rounded, FclibStorageNamed(chosen)));
+    WriteText(file, PrintFclib(rounded, problem.name, FclibStorageNamed(chosen)));
     return report;
   }
   const SiconosKind kind = format == "siconos-lcp" ? SiconosKind::kLcp : SiconosKind::kFriction;

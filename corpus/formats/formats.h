@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 
@@ -23,10 +23,9 @@ const std::vector<PublishedFormat>& PublishedFormats();
 
 // Reads a file in one of the formats; `format` is a name of the table, or empty: then the content decides. The
 // name of the problem is that of the file. InputError: what cannot be read, with its place.
-SparseProblem ReadPublished(const std::filesystem::path& file, const std::string& format = "");
+ProblemFile ReadPublished(const std::filesystem::path& file, const std::string& format = "");
 // The same of the text of that file.
-SparseProblem ParsePublished(std::string text, const std::filesystem::path& file,
-                             const std::string& format = "");
+ProblemFile ParsePublished(std::string text, const std::filesystem::path& file, const std::string& format = "");
 // Whether a text begins as one of them: HDF5, or numbers.
 bool LooksPublished(std::string_view text);
 
@@ -39,7 +38,7 @@ enum class Rounding { kRefused, kAllowed };
 
 // Writes a problem. InputError: a contact that the format does not have; a number that is no double, unless
 // `rounding` allows it, or none even then (infinite); what cannot be written.
-ExportReport WritePublished(const SparseProblem& problem, const std::filesystem::path& file,
+ExportReport WritePublished(const ProblemFile& problem, const std::filesystem::path& file,
                             const std::string& format, const std::string& storage, Rounding rounding);
 
 }  // namespace stiction

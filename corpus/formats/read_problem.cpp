@@ -73,7 +73,7 @@ Finding FindingNamed(const std::string& store, const std::string& name, const st
 // ---- Scenes ----
 
 template <class Kind>
-std::variant<ProblemFile, SparseProblem> ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source) {
+ProblemFile ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source) {
   const auto model = Assemble(scene.scene, FindContacts(scene.scene));
   if (model.islands.empty())
     throw InputError(source + ": found a scene in which nothing touches, expected a contact or a joint");
@@ -82,19 +82,18 @@ std::variant<ProblemFile, SparseProblem> ProblemOf(const SceneFileIn<Kind>& scen
         fmt::format("{}: found a scene of {} independent problems, expected one; stiction assemble {} -o "
                     "problem.json writes each",
                     source, model.islands.size(), source));
-  if (model.islands[0].rows > kMostDenseRows) {
-    ExactFactors factors = model.InFactors(0);
-    return SparseProblem{scene.scene.name, factors.dimension, factors.contacts, {},
-                         factors.b,        Json::object(),    factors};
-  }
   ProblemFile file;
   file.name = scene.scene.name;
+  if (model.islands[0].rows > kMostDenseRows) {
+    file.problem = model.InFactors(0);
+    return file;
+  }
   file.problem = model.Problem(0);
   file.scene = ToJson(scene);
   return file;
 }
 
-std::variant<ProblemFile, SparseProblem> ProblemOfScene(const std::string& text, const std::string& source) {
+ProblemFile ProblemOfScene(const std::string& text, const std::string& source) {
   return std::visit([&source](const auto& scene) { return ProblemOf(scene, source); },
                     ParseAnyScene(text, source));
 }
@@ -112,15 +111,6 @@ bool IsScene(std::string_view text, const std::string& source) {
   return json.is_object() && json.value("format", Json()) == "stiction-scene";
 }
 
-}  // namespace
-
-std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem) {
-  if (StaysSparse(problem.rows(), problem.factors.has_value())) return problem;
-  return ToDense(problem, problem.name);
-}
-
-namespace {
-
 // Of a scene that makes one problem.
 std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& source) {
   const auto assembled = [](const auto& file) -> std::optional<ExactFactors> {
@@ -137,13 +127,13 @@ std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& 
 
 }  // namespace
 
-std::optional<ExactFactors> FactorsBehind(const ProblemFile& file) {
-  if (file.factors || !file.scene) return file.factors;
+AnyProblem InFactors(const ProblemFile& file) {
+  if (file.problem.factors() != nullptr || !file.scene) return file.problem;
   auto factors = FactorsOfScene(*file.scene, file.name);
-  if (!factors || factors->rows() != file.problem.rows()) return std::nullopt;
-  const ExactProblem formed = ToDense(*factors);
-  const bool is_its = formed.A == file.problem.A && formed.b == file.problem.b;
-  return is_its ? std::move(factors) : std::nullopt;
+  if (!factors || factors->rows() != file.problem.rows()) return file.problem;
+  const AnyProblem in_factors = *std::move(factors);
+  const ExactProblem &formed = in_factors, &given = file.problem;
+  return formed.A == given.A && formed.b == given.b ? in_factors : file.problem;
 }
 
 std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
@@ -154,11 +144,12 @@ std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
   return NamedFinding{store, FindingNamed(store, source.substr(end + 1), source)};
 }
 
-std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file) {
-  const std::string source = file.string();
+namespace {
+
+ProblemFile ReadAny(const std::filesystem::path& file, const std::string& source) {
   if (const auto named = FindNamed(file)) {
     const Finding& finding = named->finding;
-    return ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, source);
+    return ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, source, kAnyRows);
   }
   if (IsStore(file))
     throw InputError(
@@ -167,23 +158,20 @@ std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path
                     source));
   std::string text = ReadText(file);
   const std::string ending = file.extension().string();
-  if (LooksPublished(text)) return Sized(ParsePublished(std::move(text), file));
+  if (LooksPublished(text)) return ParsePublished(std::move(text), file);
   if (ending == ".json" || LooksLikeJson(text))
-    return IsScene(text, source) ? ProblemOfScene(text, source) : ParseAnySize(text, source);
-  if (ending == ".dat" || ending == ".hdf5") return Sized(ParsePublished(std::move(text), file));
+    return IsScene(text, source) ? ProblemOfScene(text, source) : ParseProblem(text, source, kAnyRows);
+  if (ending == ".dat" || ending == ".hdf5") return ParsePublished(std::move(text), file);
   throw InputError(source, "line 1", text.empty() ? "nothing" : "neither JSON nor numbers", kWhatIsRead);
 }
 
-ProblemFile ReadProblem(const std::filesystem::path& file) {
-  auto read = ReadAnySize(file);
-  if (const auto* sparse = std::get_if<SparseProblem>(&read)) return ToDense(*sparse, file.string());
-  return std::get<ProblemFile>(std::move(read));
-}
+}  // namespace
 
-SparseProblem ReadSparseProblem(const std::filesystem::path& file) {
-  auto read = ReadAnySize(file);
-  if (const auto* dense = std::get_if<ProblemFile>(&read)) return ToSparse(*dense);
-  return WithMatrix(std::get<SparseProblem>(std::move(read)));
+ProblemFile ReadProblem(const std::filesystem::path& file, int most_rows) {
+  const std::string source = file.string();
+  ProblemFile read = ReadAny(file, source);
+  if (read.problem.rows() > most_rows) RequireFewRows(read.problem, source);
+  return read;
 }
 
 }  // namespace stiction

@@ -16,31 +16,22 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 #include "corpus/store/store.h"
 
 namespace stiction {
 
-// Dense as long as that is no burden: SparseProblem if A is sparse or in factors, of more than kMostDenseRows
-// rows; of factors A is not formed then (WithMatrix). `scene` of a scene's problem is that scene.
-std::variant<ProblemFile, SparseProblem> ReadAnySize(const std::filesystem::path& file);
+// In the form that it is read in; of a scene in factors where it stays sparse, otherwise dense, and `scene` is
+// that scene. More than `most_rows` are refused, by default those of which no dense A is made.
+ProblemFile ReadProblem(const std::filesystem::path& file, int most_rows = kMostDenseRows);
 
 // Whether the file is a store, or at least a database.
 bool IsStore(const std::filesystem::path& file);
 
-// What was read as sparse, as that.
-std::variant<ProblemFile, SparseProblem> Sized(SparseProblem problem);
-
-// The same for what asks for a dense matrix, and refuses larger ones.
-ProblemFile ReadProblem(const std::filesystem::path& file);
-// The same for what takes any size, and asks for A.
-SparseProblem ReadSparseProblem(const std::filesystem::path& file);
-
-// The factors of a problem: those of its file, or those of the scene that it carries, if the problem is that of
-// the scene.
-std::optional<ExactFactors> FactorsBehind(const ProblemFile& file);
+// The problem in factors, where its file or the scene that it carries has some: of a scene if the problem is
+// that of the scene. Otherwise as it is.
+AnyProblem InFactors(const ProblemFile& file);
 
 // What STORE:FINDING names; empty of anything else.
 struct NamedFinding {

@@ -23,7 +23,7 @@ constexpr const char* kReadKinds =
     "rows, columns, ...)";
 
 // Contacts of a friction problem, or of an LCP; friction coefficients are read later.
-int ReadHeader(SiconosWords& words, SiconosKind kind, SparseProblem& problem) {
+int ReadHeader(SiconosWords& words, SiconosKind kind, ExactEntries& problem) {
   if (kind == SiconosKind::kLcp) {
     const int rows = words.Count("the size of the LCP");
     problem.contacts.assign(rows, {ContactKind::kFrictionless, Rational(0), {}});
@@ -58,13 +58,14 @@ std::optional<SiconosKind> KindByFirstWords(const std::string& text, const std::
   return std::nullopt;
 }
 
-SparseProblem ParseAs(SiconosKind kind, const std::string& text, const std::string& source) {
+ProblemFile ParseAs(SiconosKind kind, const std::string& text, const std::string& source) {
   SiconosWords words(text, source);
-  SparseProblem problem;
+  ExactEntries problem;
+  SparseMatrix A;
   const int rows = ReadHeader(words, kind, problem);
-  SiconosMatrixReader matrix(words, &problem.A);
+  SiconosMatrixReader matrix(words, &A);
   matrix.Read({rows, rows});
-  std::erase_if(problem.A, [](const auto& entry) { return entry.second == 0; });
+  problem.A = ToEigen(A, rows, rows);
   problem.b.resize(rows);
   for (int i = 0; i < rows; ++i) problem.b[i] = Rational(words.Number(fmt::format("q[{}]", i)));
   if (kind == SiconosKind::kFriction) {
@@ -74,17 +75,18 @@ SparseProblem ParseAs(SiconosKind kind, const std::string& text, const std::stri
       if (mu < 0) words.Refuse(ToString(mu), what);
     }
   }
+  ProblemFile file;
+  file.problem = std::move(problem);
   const std::string remark = words.ExpectEnd();
-  problem.origin = {{"format", kind == SiconosKind::kLcp ? "siconos-lcp" : "siconos-fc"},
-                    {"storage", matrix.storage()}};
-  if (!remark.empty()) problem.origin["remark"] = remark;
-  return problem;
+  file.origin = {{"format", kind == SiconosKind::kLcp ? "siconos-lcp" : "siconos-fc"},
+                 {"storage", matrix.storage()}};
+  if (!remark.empty()) (*file.origin)["remark"] = remark;
+  return file;
 }
 
 }  // namespace
 
-SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> kind,
-                           const std::string& source) {
+ProblemFile ParseSiconos(const std::string& text, std::optional<SiconosKind> kind, const std::string& source) {
   const bool is_asked_for = kind.has_value();
   if (!kind) kind = KindByFirstWords(text, source);
   if (!kind) {
@@ -117,7 +119,8 @@ std::string Text(const Rational& x) {
 
 class MatrixWriter {
  public:
-  MatrixWriter(const SparseProblem& problem, int block) : A_(problem.A), rows_(problem.rows()), block_(block) {
+  MatrixWriter(const ExactEntries& problem, int block)
+      : A_(ByRows(problem.A)), rows_(problem.rows()), block_(block) {
     for (const auto& [at, value] : A_) columns_[{at.second, at.first}] = Text(value);
   }
 
@@ -199,7 +202,7 @@ class MatrixWriter {
     }
   }
 
-  const SparseMatrix& A_;
+  const SparseMatrix A_;
   int rows_, block_;
   std::map<std::pair<int, int>, std::string> columns_;  // by (column, row)
   std::string out_;
@@ -207,7 +210,7 @@ class MatrixWriter {
 
 }  // namespace
 
-std::string PrintSiconos(const SparseProblem& problem, SiconosKind kind, SiconosStorage storage) {
+std::string PrintSiconos(const ExactEntries& problem, SiconosKind kind, SiconosStorage storage) {
   const bool lcp = kind == SiconosKind::kLcp;
   for (const auto& contact : problem.contacts) {
     STICTION_CHECK(contact.kind == (lcp ? ContactKind::kFrictionless : ContactKind::kStatic),

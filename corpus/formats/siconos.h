@@ -28,7 +28,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 
@@ -38,10 +38,10 @@ enum class SiconosStorage { kDense, kBlocks, kTriplet, kColumns };
 // What the text must be; nothing: its first words decide. `source` names it in errors, which give the line,
 // what was found and what was expected there, and the kind of problem that the text is instead, where it is
 // known.
-SparseProblem ParseSiconos(const std::string& text, std::optional<SiconosKind> kind, const std::string& source);
+ProblemFile ParseSiconos(const std::string& text, std::optional<SiconosKind> kind, const std::string& source);
 
 // Requires frictionless contacts only (LCP), or static ones only (friction); numbers that are doubles.
-std::string PrintSiconos(const SparseProblem& problem, SiconosKind kind, SiconosStorage storage);
+std::string PrintSiconos(const ExactEntries& problem, SiconosKind kind, SiconosStorage storage);
 
 }  // namespace stiction
 

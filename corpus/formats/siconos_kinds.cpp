@@ -21,7 +21,7 @@ namespace {
 struct OtherKind {
   std::string_view name;
   void (*read)(SiconosWords& words);
-  SparseProblem (*parse)(SiconosWords& words) = nullptr;
+  ProblemFile (*parse)(SiconosWords& words) = nullptr;
 };
 
 // A size that the file derives from two others, each at most the length of the text.
@@ -157,16 +157,27 @@ ExactProblem::Vector ReadVector(SiconosWords& words, int count, const char* name
   return numbers;
 }
 
+// What stands behind the numbers.
+void AddRemark(SiconosWords& words, Json& origin) {
+  const std::string remark = words.ExpectEnd();
+  if (!remark.empty()) origin["remark"] = remark;
+}
+
+ProblemFile FileOf(AnyProblem problem, Json origin) {
+  ProblemFile file;
+  file.problem = std::move(problem);
+  file.origin = std::move(origin);
+  return file;
+}
+
 void DropZeros(SparseMatrix& matrix) {
   std::erase_if(matrix, [](const auto& entry) { return entry.second == 0; });
 }
 
 // M v = H r + q, u = H'v + b.
-SparseProblem ParseGlobalFriction(SiconosWords& words) {
-  SparseProblem problem;
-  problem.dimension = words.Integer("the dimension", 2, 3);
-  const int contacts = words.Count("the number of contacts");
-  const int rows = Multiplied(words, problem.dimension, contacts);
+ProblemFile ParseGlobalFriction(SiconosWords& words) {
+  const int dimension = words.Integer("the dimension", 2, 3), count = words.Count("the number of contacts");
+  const int rows = Multiplied(words, dimension, count);
   GlobalEquations equations;
   SiconosMatrixReader M(words, &equations.M);
   M.Read({});
@@ -176,30 +187,32 @@ SparseProblem ParseGlobalFriction(SiconosWords& words) {
   DropZeros(equations.B);
   equations.f = ReadVector(words, M.rows(), "q");
   equations.w = ReadVector(words, rows, "b");
-  const ExactProblem::Vector mu = ReadVector(words, contacts, "mu");
-  for (int i = 0; i < contacts; ++i) {
+  const ExactProblem::Vector mu = ReadVector(words, count, "mu");
+  std::vector<Contact<Rational>> contacts;
+  for (int i = 0; i < count; ++i) {
     if (mu[i] < 0) words.Refuse(ToString(mu[i]), fmt::format("mu[{}], a number >= 0", i));
-    problem.contacts.push_back({ContactKind::kStatic, mu[i], {}});
+    contacts.push_back({ContactKind::kStatic, mu[i], {}});
   }
-  const std::string remark = words.ExpectEnd();
-  problem.origin = {{"format", "siconos-gfc"}, {"storage", M.storage()}};
-  if (!remark.empty()) problem.origin["remark"] = remark;
-  if (const auto row = Condense(equations, problem))
+  Json origin = {{"format", "siconos-gfc"}, {"storage", M.storage()}};
+  AddRemark(words, origin);
+  const auto made = Condense(equations, dimension, std::move(contacts), origin);
+  if (const int* row = std::get_if<int>(&made))
     words.Refuse(fmt::format("an M with a zero pivot in row {}", *row), "a positive definite matrix");
-  return problem;
+  return FileOf(std::get<AnyProblem>(made), std::move(origin));
 }
 
 // Equations are bilateral contacts, conditions are frictionless ones.
-void AddRows(SparseProblem& problem, int count, ContactKind kind) {
+void AddRows(ExactEntries& problem, int count, ContactKind kind) {
   problem.contacts.insert(problem.contacts.end(), count, {kind, Rational(0), {}});
 }
 
 // A, B, C, D, a, b, row by row: n equations A u + C v + a = 0, then m conditions on v and D u + B v + b.
-void ReadParts(SiconosWords& words, int n, int m, SparseProblem& problem) {
+void ReadParts(SiconosWords& words, int n, int m, ExactEntries& problem) {
+  SparseMatrix M;
   const auto block = [&](const char* name, int rows, int columns, int row, int column) {
     for (int i = 0; i < rows; ++i) {
       for (int j = 0; j < columns; ++j)
-        problem.A[{row + i, column + j}] = Rational(words.Number(fmt::format("{}[{}, {}]", name, i, j)));
+        M[{row + i, column + j}] = Rational(words.Number(fmt::format("{}[{}, {}]", name, i, j)));
     }
   };
   block("A", n, n, 0, 0);
@@ -208,15 +221,16 @@ void ReadParts(SiconosWords& words, int n, int m, SparseProblem& problem) {
   block("D", m, n, n, 0);
   AddRows(problem, n, ContactKind::kBilateral);
   AddRows(problem, m, ContactKind::kFrictionless);
+  problem.A = ToEigen(M, n + m, n + m);
   problem.b = ReadVector(words, n + m, "a, b");
 }
 
-SparseProblem ParseMixed(SiconosWords& words) {
-  SparseProblem problem;
+ProblemFile ParseMixed(SiconosWords& words) {
+  ExactEntries problem;
   const bool has_whole = words.Integer("M is given", 0, 1) == 1;
   const bool has_parts = words.Integer("A is given", 0, 1) == 1;
   const int n = words.Count("equations"), m = words.Count("conditions"), rows = n + m;
-  problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  Json origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
   if (has_whole) {
     std::vector<int> begins = {words.Integer("a begin", 0, 0)};
     while (begins.back() < rows) begins.push_back(words.Integer("a begin", begins.back() + 1, rows));
@@ -225,30 +239,28 @@ SparseProblem ParseMixed(SiconosWords& words) {
       AddRows(problem, begins[k] - begins[k - 1],
               is_condition ? ContactKind::kFrictionless : ContactKind::kBilateral);
     }
-    SiconosMatrixReader M(words, &problem.A);
+    SparseMatrix entries;
+    SiconosMatrixReader M(words, &entries);
     M.Read({rows, rows});
-    problem.origin["storage"] = M.storage();
+    problem.A = ToEigen(entries, rows, rows);
+    origin["storage"] = M.storage();
     problem.b = ReadVector(words, rows, "q");
     if (has_parts) words.SkipNumbers(Multiplied(words, rows, rows + 1));  // A, B, C, D, a, b: the same numbers
   } else {
     ReadParts(words, n, m, problem);
   }
-  const std::string remark = words.ExpectEnd();
-  if (!remark.empty()) problem.origin["remark"] = remark;
-  DropZeros(problem.A);
-  return problem;
+  AddRemark(words, origin);
+  return FileOf(std::move(problem), std::move(origin));
 }
 
-SparseProblem ParseOlderMixed(SiconosWords& words) {
-  SparseProblem problem;
+ProblemFile ParseOlderMixed(SiconosWords& words) {
+  ExactEntries problem;
   const int n = words.Count("equations"), m = words.Count("conditions");
   words.Integer("the number of rows", n + m, n + m);
   ReadParts(words, n, m, problem);
-  DropZeros(problem.A);
-  const std::string remark = words.ExpectEnd();
-  problem.origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
-  if (!remark.empty()) problem.origin["remark"] = remark;
-  return problem;
+  Json origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  AddRemark(words, origin);
+  return FileOf(std::move(problem), std::move(origin));
 }
 
 // A kind stands before those that would take its files, too.
@@ -302,7 +314,7 @@ std::string OtherSiconosKind(const std::string& text) {
   return kind == nullptr ? "" : std::string(kind->name);
 }
 
-std::optional<SparseProblem> ParseOtherSiconos(const std::string& text, const std::string& source) {
+std::optional<ProblemFile> ParseOtherSiconos(const std::string& text, const std::string& source) {
   const OtherKind* kind = FindOtherKind(text);
   if (kind == nullptr || kind->parse == nullptr) return std::nullopt;
   SiconosWords words(text, source);

@@ -29,14 +29,14 @@
 #include <optional>
 #include <string>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 
 namespace stiction {
 
 // The problem of a text that is a global friction problem, whose M is taken out (condense.h), or an MLCP as
 // square as ours, whose equations are bilateral contacts and whose conditions are frictionless ones. Empty of
 // other kinds; InputError for what cannot be read of these.
-std::optional<SparseProblem> ParseOtherSiconos(const std::string& text, const std::string& source);
+std::optional<ProblemFile> ParseOtherSiconos(const std::string& text, const std::string& source);
 
 // The kind that a text is of, with its article and what stands in it; empty if it is none of these. Meant for a
 // text that is no LCP and no local friction problem.

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/sparse_matrix.h"
 
 namespace stiction {
 

@@ -175,10 +175,7 @@ class Inverses {
 
 ExactFactors FromParts(int dimension, std::vector<Contact<Rational>> contacts, const FactorParts& parts,
                        const Inverses& inverses) {
-  Entries entries;
-  for (const auto& [at, value] : parts.J) entries.emplace_back(at.first, at.second, value);
-  ExactFactors::Matrix::Rows J(parts.c.size(), parts.w.size());
-  J.setFromTriplets(entries.begin(), entries.end());
+  ExactFactors::Matrix::Rows J = ToEigen(parts.J, parts.c.size(), parts.w.size());
   ExactFactors problem;
   problem.dimension = dimension;
   problem.contacts = std::move(contacts);
@@ -214,13 +211,6 @@ Eigen::SparseMatrix<double> InverseInDoubles(const ExactFactors& factors) {
   Eigen::SparseMatrix<double> inverse(W.rows(), W.cols());
   inverse.setFromTriplets(entries.begin(), entries.end());
   return inverse;
-}
-
-template <class Numbers>
-Json ExactNumbers(const Numbers& numbers) {
-  Json json = Json::array();
-  for (int i = 0; i < numbers.size(); ++i) json.push_back(ToString(numbers(i)));
-  return json;
 }
 
 }  // namespace
@@ -334,41 +324,22 @@ Json ToJson(const ExactFactors& factors) {
   }
   for (const Block& block : BlocksOf(factors.M)) {
     Json rows = Json::array();
-    for (int i = 0; i < block.rows(); ++i) rows.push_back(ExactNumbers(block.row(i)));
+    for (int i = 0; i < block.rows(); ++i) rows.push_back(ListJson(block.row(i)));
     blocks.push_back(block.size() == 1 ? rows[0][0] : rows);
   }
   Json json = {{"J", {{"size", {J.rows(), J.cols()}}, {"entries", std::move(entries)}}},
                {"M", std::move(blocks)},
-               {"w", ExactNumbers(factors.w)}};
-  if (!IsInRangeByFactors(factors)) json["c"] = ExactNumbers(factors.c);
+               {"w", ListJson(factors.w)}};
+  if (!IsInRangeByFactors(factors)) json["c"] = ListJson(factors.c);
   return json;
 }
 
 bool IsInRangeByFactors(const ExactFactors& factors) { return (factors.c.array() == Rational(0)).all(); }
 
-SparseMatrix FormA(const ExactFactors& factors) {
-  SparseMatrix A;
-  ForEachEntry(factors.A, [&A](int i, int j, const Rational& value) {
-    if (value != 0) A.emplace(std::pair(i, j), value);
-  });
-  return A;
-}
-
-ExactProblem ToDense(const ExactFactors& factors) {
-  const int rows = factors.rows();
-  STICTION_CHECK(rows <= kMostDenseRows, "too many rows for a dense matrix");
-  ExactProblem problem{factors.dimension, factors.contacts, Block::Constant(rows, rows, Rational(0)),
-                       factors.b};
-  ForEachEntry(factors.A, [&problem](int i, int j, const Rational& value) { problem.A(i, j) = value; });
-  return problem;
-}
-
 FactoredProblem<double> InDoubles(const ExactFactors& factors) {
   FactoredProblem<double> rounded;
   rounded.dimension = factors.dimension;
-  for (const Contact<Rational>& contact : factors.contacts)
-    rounded.contacts.push_back(
-        {contact.kind, ToDouble(contact.mu), {ToDouble(contact.slip[0]), ToDouble(contact.slip[1])}});
+  rounded.contacts = Converted<double>(factors.contacts, &ToDouble);
   rounded.A = {factors.A.J().unaryExpr(&ToDouble), InverseInDoubles(factors)};
   rounded.M = factors.M.unaryExpr(&ToDouble);
   rounded.w = factors.w.unaryExpr(&ToDouble);

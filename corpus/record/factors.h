@@ -18,11 +18,8 @@
 
 #include "corpus/exact_problem.h"
 #include "corpus/record/sparse_matrix.h"
-#include "solver/problem/factored.h"
 
 namespace stiction {
-
-using ExactFactors = FactoredProblem<Rational>;
 
 inline constexpr int kMostWholeInverse = 12;
 
@@ -49,11 +46,6 @@ std::optional<ExactFactors> ReadFactors(const JsonPlace& place, int dimension,
 // The rows that J says it has; -1 where it does not tell.
 int RowsOfFactors(const JsonPlace& place);
 Json ToJson(const ExactFactors& factors);
-
-// A, whose entries that are zero are left out.
-SparseMatrix FormA(const ExactFactors& factors);
-// The same with all of A; InternalError above kMostDenseRows.
-ExactProblem ToDense(const ExactFactors& factors);
 
 // Whether c = 0, so that b = J w is in range(A) = range(J), M being definite. Otherwise it may be, too.
 bool IsInRangeByFactors(const ExactFactors& factors);

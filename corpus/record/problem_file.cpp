@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -17,7 +16,7 @@
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
 #include "corpus/printable.h"
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/sparse_matrix.h"
 #include "solver/problem/check.h"
 #include "solver/problem/options.h"
 #include "solver/problem/solution.h"
@@ -48,24 +47,17 @@ void Append(Contacts& contacts, const Contacts& more) {
   contacts.insert(contacts.end(), more.begin(), more.end());
 }
 
-// A problem as it was read: `entries` or `factors` in place of problem.A where the file has these.
-struct ReadResult {
-  ExactProblem problem;
-  std::optional<SparseMatrix> entries;
-  std::optional<ExactFactors> factors;
-};
-
 // Reads a problem value by value. Strict: numbers are strings only, and nothing has a default.
 class ProblemReader {
  public:
   explicit ProblemReader(bool strict) : strict_(strict) {}
 
   // Adds what is wrong with the problem to `faults`; the result holds only where there is nothing.
-  ReadResult Read(const JsonPlace& place, Faults& faults) const;
+  AnyProblem Read(const JsonPlace& place, Faults& faults) const;
 
  private:
   void ReadHeader(const JsonPlace& place) const;
-  void ReadMatrix(const JsonPlace& place, int rows, ReadResult& result, Faults& faults) const;
+  AnyProblem WithMatrix(const JsonPlace& place, int rows, ExactProblem problem, Faults& faults) const;
   Rational Number(const JsonPlace& place) const;
   Contacts AllContacts(const JsonPlace& place, int dimension, Faults& faults) const;
   Contacts StaticContacts(const JsonPlace& mu, int dimension, int rows, Faults& faults) const;
@@ -153,10 +145,9 @@ int DimensionTold(const JsonPlace& place) {
 }
 
 // Contacts, A and b are read as far as they can be, whatever is wrong with the others.
-ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
+AnyProblem ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
   ReadHeader(place);
-  ReadResult result;
-  ExactProblem& problem = result.problem;
+  ExactProblem problem;
   faults.Try([&] { place.AllowKeys(strict_ ? kProblemKeys : kFileKeys); });
   problem.dimension = 0;
   faults.Try([&] {
@@ -183,7 +174,7 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
   faults.Take(of_contacts);
   const bool are_counted = of_contacts.empty() && problem.dimension != 0;
   const int rows = are_counted ? RowCount(problem.contacts, problem.dimension) : RowsTold(place);
-  ReadMatrix(place, rows, result, faults);
+  AnyProblem result = WithMatrix(place, rows, std::move(problem), faults);
   // What is missing or wrong above is told; whatever else leaves the sizes open is refused here.
   if (faults.empty() && (!are_counted || rows < 0)) {
     faults.Try([&] {
@@ -195,9 +186,9 @@ ReadResult ProblemReader::Read(const JsonPlace& place, Faults& faults) const {
   return result;
 }
 
-// A and b, or the factors of both.
-void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& result, Faults& faults) const {
-  ExactProblem& problem = result.problem;
+// The problem with A and b, or with the factors of both.
+AnyProblem ProblemReader::WithMatrix(const JsonPlace& place, int rows, ExactProblem problem,
+                                     Faults& faults) const {
   const auto factors = strict_ ? std::nullopt : place.Optional("factors");
   if (factors) {
     for (const char* key : {"A", "b"}) {
@@ -207,15 +198,15 @@ void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& res
           beside->Refuse(fmt::format("{} beside factors", key), "one of the two: factors say A and b");
       });
     }
-    result.factors = ReadFactors(*factors, problem.dimension, problem.contacts, rows, faults);
-    if (result.factors) problem.b = result.factors->b;
-    return;
+    auto read = ReadFactors(*factors, problem.dimension, problem.contacts, rows, faults);
+    return read ? AnyProblem(*std::move(read)) : AnyProblem(std::move(problem));
   }
+  std::optional<SparseMatrix> entries;
   faults.Try([&] {
     const JsonPlace A = place.Required("A", strict_ ? kMatrixExpected : kMatrixOrFactors);
     if (rows < 0) return;
     if (A.json().is_object())
-      result.entries = Entries(A, rows, faults);
+      entries = Entries(A, rows, faults);
     else
       problem.A = DenseRows(A, rows);
   });
@@ -223,6 +214,9 @@ void ProblemReader::ReadMatrix(const JsonPlace& place, int rows, ReadResult& res
     const JsonPlace b = place.Required("b", "an array of numbers");
     if (rows >= 0) problem.b = Numbers(b, rows);
   });
+  if (!entries) return problem;
+  return ExactEntries{problem.dimension, std::move(problem.contacts), ToEigen(*entries, rows, rows),
+                      std::move(problem.b)};
 }
 
 Rational ProblemReader::Number(const JsonPlace& place) const { return ExactNumber(place, strict_); }
@@ -360,15 +354,9 @@ Vector ProblemReader::Numbers(const JsonPlace& place, int rows) const {
   return values;
 }
 
-// A of entries or factors becomes dense.
-ExactProblem Dense(ReadResult read, const JsonPlace& place) {
-  if (!read.entries && !read.factors) return std::move(read.problem);
-  const int rows = read.problem.rows();
-  RequireMemory(place.Child(read.factors ? "factors" : "A", place.json()), rows);
-  if (read.factors) return ToDense(*read.factors);
-  read.problem.A = Matrix::Constant(rows, rows, Rational(0));
-  for (auto& [at, value] : *read.entries) read.problem.A(at.first, at.second) = std::move(value);
-  return std::move(read.problem);
+// What is asked for as dense.
+void RequireMemory(const AnyProblem& problem, const JsonPlace& place) {
+  RequireMemory(place.Child(problem.factors() != nullptr ? "factors" : "A", place.json()), problem.rows());
 }
 
 // One spelling per policy, so that two spellings of one are noticed.
@@ -414,11 +402,10 @@ void CheckContact(const Contact<Rational>& contact, int dimension) {
 }
 
 // What the reader would refuse is not written.
-void CheckProblem(const ExactProblem& problem) {
-  STICTION_CHECK(problem.dimension == 2 || problem.dimension == 3, "the dimension is neither 2 nor 3");
-  for (const Contact<Rational>& contact : problem.contacts) CheckContact(contact, problem.dimension);
-  const int rows = RowCount(problem.contacts, problem.dimension);
-  STICTION_CHECK(problem.rows() == rows, "b does not have one row per row of the contacts");
+void CheckContacts(const Contacts& contacts, int dimension, int rows) {
+  STICTION_CHECK(dimension == 2 || dimension == 3, "the dimension is neither 2 nor 3");
+  for (const Contact<Rational>& contact : contacts) CheckContact(contact, dimension);
+  STICTION_CHECK(rows == RowCount(contacts, dimension), "b does not have one row per row of the contacts");
 }
 
 Json ContactToJson(const Contact<Rational>& contact, int dimension) {
@@ -433,16 +420,9 @@ Json ContactToJson(const Contact<Rational>& contact, int dimension) {
   return json;
 }
 
-template <class Numbers>
-Json NumbersToJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (int i = 0; i < numbers.size(); ++i) json.push_back(ToString(numbers(i)));
-  return json;
-}
-
 Json RowsToJson(const Matrix& A) {
   Json json = Json::array();
-  for (int i = 0; i < A.rows(); ++i) json.push_back(NumbersToJson(A.row(i)));
+  for (int i = 0; i < A.rows(); ++i) json.push_back(ListJson(A.row(i)));
   return json;
 }
 
@@ -464,56 +444,46 @@ Json EntriesToJson(const Matrix& A) {
   return {{"size", A.rows()}, {"entries", std::move(entries)}};
 }
 
+Json MatrixToJson(const Matrix& A, int rows) {
+  STICTION_CHECK(A.rows() == rows && A.cols() == rows, "A does not fit the contacts");
+  return IsBestSparse(A) ? EntriesToJson(A) : RowsToJson(A);
+}
+
 // The same of any sparse matrix. An entry without its mirror stands beside a zero.
-Json EntriesToJson(const SparseMatrix& A, int rows) {
+Json EntriesToJson(const Eigen::SparseMatrix<Rational>& A) {
   Json entries = Json::array();
   const auto add = [&entries](int i, int j, const Rational& x) {
     entries.push_back(Json::array({i, j, ToString(x)}));
   };
-  for (const auto& [at, value] : A) {
+  const SparseMatrix by_rows = ByRows(A);
+  for (const auto& [at, value] : by_rows) {
     const auto [i, j] = at;
-    const auto mirror = A.find({j, i});
-    if (mirror == A.end()) add(j, i, 0);
-    if (i >= j || mirror == A.end() || mirror->second != value) add(i, j, value);
+    const auto mirror = by_rows.find({j, i});
+    if (mirror == by_rows.end()) add(j, i, 0);
+    if (i >= j || mirror == by_rows.end() || mirror->second != value) add(i, j, value);
   }
-  return {{"size", rows}, {"entries", std::move(entries)}};
+  return {{"size", A.rows()}, {"entries", std::move(entries)}};
 }
 
-// All but A and b; those of the problem are not looked at.
-Json ContactsToJson(const ExactProblem& problem) {
-  CheckProblem(problem);
-  Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", problem.dimension}};
+// All but A and b.
+Json ContactsToJson(const std::vector<Contact<Rational>>& contacts, int dimension, int rows) {
+  CheckContacts(contacts, dimension, rows);
+  Json json = {{"format", kFormat}, {"version", kVersion}, {"dimension", dimension}};
   json["contacts"] = Json::array();
-  for (const auto& contact : problem.contacts)
-    json["contacts"].push_back(ContactToJson(contact, problem.dimension));
+  for (const auto& contact : contacts) json["contacts"].push_back(ContactToJson(contact, dimension));
   return json;
 }
 
-// With A, which is given.
-Json ProblemToJson(const ExactProblem& problem, Json A) {
-  Json json = ContactsToJson(problem);
-  json["A"] = std::move(A);
-  json["b"] = NumbersToJson(problem.b);
-  return json;
-}
-
-// With the factors in place of A and b.
-Json ProblemToJson(const ExactProblem& problem, const ExactFactors& factors) {
-  Json json = ContactsToJson(problem);
-  json["factors"] = ToJson(factors);
-  return json;
-}
-
-// A file whose problem is given.
-Json FileToJson(const ProblemFile& file, const Json& problem) {
-  Json json;
-  for (const auto& member : problem.items()) {
-    if (member.key() == "dimension") json["name"] = file.name;
-    json[member.key()] = member.value();
+// In the form that it has.
+Json AnyProblemToJson(const AnyProblem& problem) {
+  Json json = ContactsToJson(problem.contacts(), problem.dimension(), problem.rows());
+  if (problem.factors() != nullptr) {
+    json["factors"] = ToJson(*problem.factors());
+    return json;
   }
-  if (file.scene) json["scene"] = *file.scene;
-  if (file.origin) json["origin"] = *file.origin;
-  if (!file.expect.empty()) json["expect"] = file.expect;
+  json["A"] =
+      problem.IsDense() ? MatrixToJson(problem.dense().A, problem.rows()) : EntriesToJson(problem.entries().A);
+  json["b"] = ListJson(problem.b());
   return json;
 }
 
@@ -604,13 +574,12 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
                R"(, such as "-3/4" (denominator not zero) or "2.5e-3" (exponent within 10000))");
 }
 
-std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, const std::string& source,
-                                                      int most_dense_rows) {
+ProblemFile ParseProblem(std::string_view text, const std::string& source, int most_rows) {
   const Json json = ParseJson(text, source);
   const JsonPlace place(json, source, "");
   Faults faults(source);
-  ReadResult read = ProblemReader(false).Read(place, faults);
   ProblemFile file;
+  file.problem = ProblemReader(false).Read(place, faults);
   file.name = Printable(std::filesystem::path(source).stem().string());
   faults.Try([&] {
     if (const auto name = place.Optional("name")) file.name = name->Text("a string");
@@ -626,56 +595,52 @@ std::variant<ProblemFile, SparseProblem> ParseAnySize(std::string_view text, con
     if (const auto expect = place.Optional("expect")) file.expect = ReadExpect(*expect);
   });
   faults.Throw();
-  ExactProblem& problem = read.problem;
-  if ((read.entries || read.factors) && StaysSparse(problem.rows(), read.factors.has_value(), most_dense_rows))
-    return SparseProblem{file.name,
-                         problem.dimension,
-                         std::move(problem.contacts),
-                         std::move(read.entries).value_or(SparseMatrix()),
-                         std::move(problem.b),
-                         file.origin.value_or(Json::object()),
-                         std::move(read.factors)};
-  file.factors = read.factors;
-  file.problem = Dense(std::move(read), place);
+  if (file.problem.rows() > most_rows) RequireMemory(file.problem, place);
   return file;
 }
 
-ProblemFile ParseProblem(std::string_view text, const std::string& source) {
-  return std::get<ProblemFile>(ParseAnySize(text, source, INT_MAX));
+void RequireFewRows(const AnyProblem& problem, const std::string& source) {
+  if (problem.rows() <= kMostDenseRows) return;
+  throw InputError(source, "rows", std::to_string(problem.rows()),
+                   fmt::format("at most {} for a dense matrix; stiction solve and stiction survey take more",
+                               kMostDenseRows));
+}
+
+bool StaysSparse(const AnyProblem& problem) {
+  return problem.rows() > (problem.factors() != nullptr ? kMostDenseRows / 4 : kMostDenseRows);
 }
 
 ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path,
                              bool strict) {
   const JsonPlace place(json, source, path);
   Faults faults(source);
-  ReadResult read = ProblemReader(strict).Read(place, faults);
+  const AnyProblem read = ProblemReader(strict).Read(place, faults);
   faults.Throw();
-  return Dense(std::move(read), place);
+  RequireMemory(read, place);
+  return read;
 }
 
 Json ProblemToJson(const ExactProblem& problem) {
-  const int rows = problem.rows();
-  STICTION_CHECK(problem.A.rows() == rows && problem.A.cols() == rows, "A does not fit the contacts");
-  return ProblemToJson(problem, IsBestSparse(problem.A) ? EntriesToJson(problem.A) : RowsToJson(problem.A));
+  Json json = ContactsToJson(problem.contacts, problem.dimension, problem.rows());
+  json["A"] = MatrixToJson(problem.A, problem.rows());
+  json["b"] = ListJson(problem.b);
+  return json;
 }
 
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 Json ToJson(const ProblemFile& file) {
-  return FileToJson(file,
-                    file.factors ? ProblemToJson(file.problem, *file.factors) : ProblemToJson(file.problem));
+  Json json;
+  for (const auto& member : AnyProblemToJson(file.problem).items()) {
+    if (member.key() == "dimension") json["name"] = file.name;
+    json[member.key()] = member.value();
+  }
+  if (file.scene) json["scene"] = *file.scene;
+  if (file.origin) json["origin"] = *file.origin;
+  if (!file.expect.empty()) json["expect"] = file.expect;
+  return json;
 }
 
 std::string Print(const ProblemFile& file) { return PrintFile(ToJson(file)); }
-
-std::string Print(const SparseProblem& problem) {
-  ProblemFile file;
-  file.name = problem.name;
-  if (!problem.origin.empty()) file.origin = problem.origin;
-  const ExactProblem all_but_A = {problem.dimension, problem.contacts, {}, problem.b};
-  const Json json = problem.factors ? ProblemToJson(all_but_A, *problem.factors)
-                                    : ProblemToJson(all_but_A, EntriesToJson(problem.A, problem.rows()));
-  return PrintFile(FileToJson(file, json));
-}
 
 }  // namespace stiction

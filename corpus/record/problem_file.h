@@ -16,6 +16,7 @@
 #ifndef STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
 #define STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
 
+#include <climits>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,21 +30,29 @@ namespace stiction {
 
 struct ProblemFile {
   std::string name;
-  ExactProblem problem;
+  AnyProblem problem;                         // in the form that the file has it
   std::optional<Json> scene;                  // any value, kept as it is
   std::optional<Json> origin;                 // generator, seed, parent, what was rounded or symmetrized
   std::map<std::string, std::string> expect;  // policy as written, or "*" for the grid -> outcome
-  std::optional<ExactFactors> factors = {};   // of the same problem, where it came in factors
 };
 
+// Whether all of A is a burden: then it stays as it is until somebody asks for it. Factors do so earlier: what
+// they are for does not need A.
+bool StaysSparse(const AnyProblem& problem);
+
+inline constexpr int kAnyRows = INT_MAX;
+
 // `source` names the text in errors. No policy may stand twice in `expect`, however it is written.
-// Without a name it has that of the source, without its ending.
-ProblemFile ParseProblem(std::string_view text, const std::string& source);
+// Without a name it has that of the source, without its ending. More than `most_rows` are refused, by default
+// those of which no dense A is made.
+ProblemFile ParseProblem(std::string_view text, const std::string& source, int most_rows = kMostDenseRows);
+// InputError, naming `source`, above kMostDenseRows.
+void RequireFewRows(const AnyProblem& problem, const std::string& source);
 
 // Writers write what the reader reads back to the same values; an invalid problem (sizes, mu, slip) is an
-// InternalError. Every number of the problem is an exact string. A is in rows, or, where it is symmetric with
-// more than 64 rows and at most a quarter of its entries are not zero, in entries; a file with factors has
-// these.
+// InternalError. Every number of the problem is an exact string. A is in the form that the problem
+// has; in entries, too, where a dense one is symmetric with more than 64 rows and at most a quarter of its
+// entries are not zero.
 //
 // The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
 Json ProblemToJson(const ExactProblem& problem);

@@ -36,12 +36,7 @@ std::vector<ProblemFile> ProblemsOf(const SceneFileIn<Kind>& file, const ModelIn
   std::vector<ProblemFile> problems;
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     ProblemFile& problem = problems.emplace_back();
-    if (o.factors) {
-      problem.factors = model.InFactors(i);
-      problem.problem = {problem.factors->dimension, problem.factors->contacts, {}, problem.factors->b};
-    } else {
-      problem.problem = model.Problem(i);
-    }
+    problem.problem = o.factors ? AnyProblem(model.InFactors(i)) : AnyProblem(model.Problem(i));
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
     problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
 
@@ -22,6 +24,23 @@ SparseMatrix ReadEntries(const JsonPlace& place, int rows, int columns, bool str
     if (!entries.emplace(std::pair(i, j), ExactNumber(entry[2], strict)).second)
       entry.Refuse("each entry once");
   }
+  return entries;
+}
+
+Eigen::SparseMatrix<Rational> ToEigen(const SparseMatrix& entries, Eigen::Index rows, Eigen::Index columns) {
+  std::vector<Eigen::Triplet<Rational>> triplets;
+  for (const auto& [at, value] : entries)
+    if (value != 0) triplets.emplace_back(at.first, at.second, value);
+  Eigen::SparseMatrix<Rational> matrix(rows, columns);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+SparseMatrix ByRows(const Eigen::SparseMatrix<Rational>& matrix) {
+  SparseMatrix entries;
+  for (int j = 0; j < matrix.outerSize(); ++j)
+    for (Eigen::SparseMatrix<Rational>::InnerIterator entry(matrix, j); entry; ++entry)
+      entries.emplace(std::pair(static_cast<int>(entry.row()), j), entry.value());
   return entries;
 }
 

@@ -4,6 +4,7 @@
 #ifndef STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
 #define STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
 
+#include <Eigen/SparseCore>
 #include <map>
 #include <utility>
 
@@ -14,6 +15,10 @@ namespace stiction {
 
 // By (row, column), zero-based; what is not there is zero.
 using SparseMatrix = std::map<std::pair<int, int>, Rational>;
+
+// The same as a matrix, without the zeros that are listed; and back.
+Eigen::SparseMatrix<Rational> ToEigen(const SparseMatrix& entries, Eigen::Index rows, Eigen::Index columns);
+SparseMatrix ByRows(const Eigen::SparseMatrix<Rational>& matrix);
 
 // Dense matrices of rationals are not made beyond this number of rows (about 1 GB).
 inline constexpr int kMostDenseRows = 4000;

@@ -21,7 +21,7 @@ namespace {
 ProvedRun ByFacts(const Finding& finding, const char* key) {
   const Json facts = finding.facts.empty() ? Json::object() : ParseJson(finding.facts, finding.signature);
   if (!facts.contains(key)) return {};
-  const bool in_space = ParseProblem(finding.problem, finding.signature).problem.dimension == 3;
+  const bool in_space = ParseProblem(finding.problem, finding.signature).problem.dimension() == 3;
   // Facts of earlier builds have fewer counts.
   const auto count = [&](const char* name) { return facts.at(key).value(name, std::int64_t{0}); };
   if (in_space) return {ProofKind::kNone, count("start"), count("period"), 0};

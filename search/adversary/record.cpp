@@ -75,7 +75,7 @@ Rational ShownValue(const Objective& objective, ExactTrial& trial) {
 }
 
 // In space the friction of a loop is a value, under either slip.
-bool IsInSpace(const ProblemFile& problem) { return problem.problem.dimension == 3; }
+bool IsInSpace(const ProblemFile& problem) { return problem.problem.dimension() == 3; }
 
 FrontierRecord RecordInSpace(FrontierRecord record, const Limits& limits) {
   if (!record.objective->lowers_friction)
@@ -137,7 +137,7 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
   if (OfCondition(objective)) {
     if (!record.bounds || record.bounds->second / record.bounds->first != record.value)
       return "the quotient of its bounds is not its value";
-    if (!Encloses(record.problem.problem.A, record.bounds->first, record.bounds->second))
+    if (!Encloses(record.problem.problem.dense().A, record.bounds->first, record.bounds->second))
       return "eigenvalues of A are not in its bounds";
   } else {
     const Rational value = ShownValue(objective, trial);

@@ -245,7 +245,7 @@ std::optional<Finding> FinishInSpace(const Finding& finding, const ExactProblem&
 std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limits,
                                      const std::function<bool()>& cancelled, const ExactMethods& methods) {
   const ProblemFile file = ParseProblem(finding.problem, finding.signature);
-  if (file.problem.dimension == 3) return FinishInSpace(finding, file.problem, limits, cancelled, methods);
+  if (file.problem.dimension() == 3) return FinishInSpace(finding, file.problem, limits, cancelled, methods);
   Unfinished found{file.problem,
                    methods.published(file.problem, {.policy = ParsePolicy(finding.policy), .limits = limits}),
                    Json::object(), file.scene.has_value(), methods};

@@ -19,6 +19,7 @@
 
 #include "solver/numeric/body_newton.h"
 #include "solver/numeric/dense_factors.h"
+#include "solver/problem/any_problem.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/lenient.h"
 #include "solver/solve.h"
@@ -391,13 +392,6 @@ void Remember(stiction_context& context, const Given& given, const Vector& f) {
                    [](const auto& one, const auto& other) { return one.key < other.key; });
 }
 
-Dense InNumbers(const Factored& problem) {
-  Dense dense{problem.dimension, problem.contacts, {}, problem.b};
-  dense.A.setZero(problem.rows(), problem.rows());
-  ForEachEntry(problem.A, [&dense](int i, int j, double x) { dense.A(i, j) += x; });
-  return dense;
-}
-
 // Writes the answer, when there is nothing left that may throw. v: of the bodies.
 template <class Problem>
 stiction_verdict Told(stiction_context& context, const Best& best, const Problem& problem, const Vector& v,
@@ -435,7 +429,7 @@ stiction_verdict SolveFactors(stiction_context& context, const stiction_factors*
   Solving<Factored> solving(problem, options);
   if (!solving.IsSolved() && problem.w.size() > 0)
     solving.ByNewton(context.newton, problem, options.warm ? Start(context, *given) : Vector());
-  if (!solving.IsSolved() && problem.rows() <= options.dense_rows) solving.ByDenseMethods(InNumbers(problem));
+  if (!solving.IsSolved() && problem.rows() <= options.dense_rows) solving.ByDenseMethods(DenseOf(problem));
   const Best& best = solving.Finish();
   context.known.clear();
   if (solving.IsSolved()) Remember(context, *given, best.f);

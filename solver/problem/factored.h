@@ -86,26 +86,20 @@ void ForEachInColumn(const FactoredMatrix<Scalar>& A, int column, Visit visit) {
 }
 
 template <class Scalar>
-struct FactoredProblem {
+struct FactoredProblem : ContactProblem<Scalar, Eigen::Dynamic, FactoredMatrix<Scalar>> {
   using Matrix = FactoredMatrix<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  int dimension = 2;
-  std::vector<Contact<Scalar>> contacts;
-  Matrix A;
   typename Matrix::Matrix M;
-  Vector w, c;
-  Vector b;  // J w + c
-
-  int rows() const { return static_cast<int>(b.size()); }
+  Vector w, c;  // b = J w + c
 
   // W J' f, what the forces change of the bodies' accelerations.
   Vector Responses(const Vector& f) const {
-    if constexpr (kIsExact<Scalar>) return A.JW().transpose() * f;  // W may not be whole
-    return A.W() * (A.J().transpose() * f);
+    if constexpr (kIsExact<Scalar>) return this->A.JW().transpose() * f;  // W may not be whole
+    return this->A.W() * (this->A.J().transpose() * f);
   }
   // a = A f + b, of the contacts.
-  Vector Accelerations(const Vector& f) const { return A.J() * Responses(f) + b; }
+  Vector Accelerations(const Vector& f) const { return this->A.J() * Responses(f) + this->b; }
 };
 
 }  // namespace stiction

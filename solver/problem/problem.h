@@ -10,7 +10,9 @@
 // positive semidefinite and b in its range are properties to test, not requirements.
 //
 // Rows is a compile-time row count for planar problems of static contacts only (two rows each),
-// which keeps everything on the stack, or Eigen::Dynamic for any problem.
+// which keeps everything on the stack, or Eigen::Dynamic for any problem. MatrixType is how A is held: by
+// default dense; SparseContactProblem has its nonzero entries; FactoredProblem (factored.h) its factors.
+// Problem (any_problem.h) is one of these three, as it was read or made.
 
 #ifndef STICTION_SOLVER_PROBLEM_PROBLEM_H_
 #define STICTION_SOLVER_PROBLEM_PROBLEM_H_
@@ -51,10 +53,10 @@ struct Contact {
   bool HasFrictionRows() const { return kind == ContactKind::kStatic || kind == ContactKind::kSliding; }
 };
 
-template <class Scalar, int Rows = Eigen::Dynamic>
+template <class Scalar, int Rows = Eigen::Dynamic, class MatrixType = Eigen::Matrix<Scalar, Rows, Rows>>
 struct ContactProblem {
   static_assert(Rows == Eigen::Dynamic || Rows % 2 == 0, "fixed sizes hold static contacts only");
-  using Matrix = Eigen::Matrix<Scalar, Rows, Rows>;
+  using Matrix = MatrixType;
   using Vector = Eigen::Matrix<Scalar, Rows, 1>;
   using Contacts = std::conditional_t<Rows == Eigen::Dynamic, std::vector<Contact<Scalar>>,
                                       std::array<Contact<Scalar>, Rows == Eigen::Dynamic ? 1 : Rows / 2>>;
@@ -67,18 +69,28 @@ struct ContactProblem {
   int rows() const { return static_cast<int>(b.size()); }
 };
 
-// The same problem in other numbers: convert(x) of every number x.
+template <class Scalar>
+using SparseContactProblem = ContactProblem<Scalar, Eigen::Dynamic, Eigen::SparseMatrix<Scalar>>;
+
+// The same contacts in other numbers: convert(x) of every number x.
+template <class To, class From, class Convert>
+std::vector<Contact<To>> Converted(const std::vector<Contact<From>>& contacts, Convert convert) {
+  std::vector<Contact<To>> result;
+  for (const Contact<From>& contact : contacts)
+    result.push_back({contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
+  return result;
+}
+
+// The same problem.
 template <class To, class From, class Convert>
 ContactProblem<To> Converted(const ContactProblem<From>& problem, Convert convert) {
-  ContactProblem<To> result;
-  result.dimension = problem.dimension;
-  for (const Contact<From>& contact : problem.contacts) {
-    result.contacts.push_back(
-        {contact.kind, convert(contact.mu), {convert(contact.slip[0]), convert(contact.slip[1])}});
-  }
-  result.A = problem.A.unaryExpr(convert);
-  result.b = problem.b.unaryExpr(convert);
-  return result;
+  return {problem.dimension, Converted<To>(problem.contacts, convert), problem.A.unaryExpr(convert),
+          problem.b.unaryExpr(convert)};
+}
+template <class To, class From, class Convert>
+SparseContactProblem<To> Converted(const SparseContactProblem<From>& problem, Convert convert) {
+  return {problem.dimension, Converted<To>(problem.contacts, convert), problem.A.unaryExpr(convert),
+          problem.b.unaryExpr(convert)};
 }
 
 // Number of rows that the contacts ask for.
@@ -135,20 +147,6 @@ class RowLayout<Eigen::Dynamic> {
  private:
   std::vector<int> contact_of_;  // by row
   std::vector<int> normal_row_;  // by contact
-};
-
-// The same, of any size, with the nonzero entries of A only.
-template <class Scalar>
-struct SparseContactProblem {
-  using Matrix = Eigen::SparseMatrix<Scalar>;
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-
-  int dimension = 2;
-  std::vector<Contact<Scalar>> contacts;
-  Matrix A;
-  Vector b;
-
-  int rows() const { return static_cast<int>(b.size()); }
 };
 
 }  // namespace stiction

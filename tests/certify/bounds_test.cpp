@@ -8,15 +8,12 @@
 #include "certify/claims/certificate.h"
 #include "certify/exact/hypothesis.h"
 #include "corpus/json.h"
-#include "corpus/record/sparse_problem.h"
 #include "tests/support.h"
 
 namespace stiction {
 namespace {
 
 using namespace testing;
-
-SparseProblem Sparse(const ExactProblem& problem) { return ToSparse({"", problem, {}, {}, {}}); }
 
 ExactProblem Frictionless(const ExactMatrix& A, const ExactVector& b) {
   ExactProblem problem;
@@ -51,7 +48,7 @@ TEST_CASE("bounds: no bound on x'Ax is above what a direction shows, and exact e
     const int size = 2 + index % 9;
     const Rational shift = index % 3 == 0 ? Rational(0) : Rational(index % 3 == 1 ? 1 : -1, 1 + index % 50);
     const ExactProblem problem = RandomGram(size, 1 + index % size, shift, choices);
-    const CurvatureBounds bounds = BoundCurvature(Sparse(problem));
+    const CurvatureBounds bounds = BoundCurvature(problem);
     REQUIRE(bounds.least.has_value());
     const bool psd = IsPositiveSemidefinite(problem);
     if (*bounds.least >= 0) CHECK(psd);
@@ -91,7 +88,7 @@ TEST_CASE("bounds: what hides below rounding errors is covered by the bound") {
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j < size; ++j) A(i, j) = J[i] * J[j] - (i == j ? d : Rational(0));
     }
-    const CurvatureBounds bounds = BoundCurvature(Sparse(Frictionless(A, J)));
+    const CurvatureBounds bounds = BoundCurvature(Frictionless(A, J));
     REQUIRE(bounds.least.has_value());
     CHECK(Rational(*bounds.least) <= -d);
   }
@@ -105,11 +102,10 @@ TEST_CASE("bounds: the distance from the range is zero but for rounding exactly 
     const int size = 2 + index % 9;
     ExactProblem problem = RandomGram(size, 1 + index % size, 0, choices);
     if (index % 2 == 0) {
-      const SparseProblem sparse = Sparse(problem);
-      problem.b = Times(sparse, problem.b);
+      problem.b = problem.A * ExactVector(problem.b);
     }
-    const RangeDistance bound = BoundRangeDistance(Sparse(problem));
-    ExactVector rest = Times(Sparse(problem), bound.x);
+    const RangeDistance bound = BoundRangeDistance(problem);
+    ExactVector rest = problem.A * bound.x;
     double square = 0, length = 0;
     for (int i = 0; i < size; ++i) {
       square += std::pow(ToDouble(Rational(rest[i] - problem.b[i])), 2);
@@ -135,12 +131,12 @@ TEST_CASE("bounds: what is regular modulo a prime is regular") {
     const auto factors = DecideSemidefinite(problem.A);
     bool full = true;
     for (const Rational& d : std::get<LdltFactors>(factors).D) full &= d != 0;
-    CHECK(IsRegularModuloPrime(Sparse(problem)) == full);
+    CHECK(IsRegularModuloPrime(problem) == full);
     regular += full;
   }
   CHECK(regular > 50);
   CHECK(regular < 150);
-  CHECK(IsRegularModuloPrime(Sparse(Frictionless(Matrix({{Rational(1, 3), 0}, {0, -2}}), Vector({0, 0})))));
+  CHECK(IsRegularModuloPrime(Frictionless(Matrix({{Rational(1, 3), 0}, {0, -2}}), Vector({0, 0}))));
 }
 
 TEST_CASE("(H): decided either way with a certificate, and b in range(A) implies it") {

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "corpus/formats/siconos.h"
+#include "corpus/record/asymmetry.h"
 #include "corpus/record/problem_file.h"
 #include "tests/support.h"
 
@@ -37,13 +38,14 @@ class Folder {
 };
 
 // Doubles of all sizes; asymmetric, so that a transposed matrix is noticed; some entries zero.
-SparseProblem RandomDoubles(const std::vector<ContactKind>& kinds, int dimension, std::uint64_t seed) {
+ExactEntries RandomDoubles(const std::vector<ContactKind>& kinds, int dimension, std::uint64_t seed) {
   Choices choices(seed);
   const auto number = [&choices] {
     return Rational(static_cast<double>(choices.Integer(-1000, 1000)) / 7.0 *
                     std::ldexp(1.0, static_cast<int>(choices.Integer(-60, 60))));
   };
-  SparseProblem problem;
+  ExactEntries problem;
+  SparseMatrix A;
   problem.dimension = dimension;
   for (const ContactKind kind : kinds) {
     const bool rough = kind == ContactKind::kStatic;
@@ -56,21 +58,31 @@ SparseProblem RandomDoubles(const std::vector<ContactKind>& kinds, int dimension
     problem.b[i] = number();
     for (int j = 0; j < rows; ++j) {
       const Rational value = choices.Integer(0, 2) == 0 ? number() : Rational(0);
-      if (value != 0) problem.A[{i, j}] = value;
+      if (value != 0) A[{i, j}] = value;
     }
   }
+  problem.A = ToEigen(A, rows, rows);
   return problem;
 }
 
-void CheckEqual(const SparseProblem& found, const SparseProblem& expected) {
-  CHECK(found.dimension == expected.dimension);
-  REQUIRE(found.contacts.size() == expected.contacts.size());
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    CHECK(found.contacts[i].kind == expected.contacts[i].kind);
-    CHECK(found.contacts[i].mu == expected.contacts[i].mu);
+ProblemFile FileOf(AnyProblem problem) {
+  ProblemFile file;
+  file.problem = std::move(problem);
+  return file;
+}
+
+// The entries of A, by rows.
+SparseMatrix EntriesIn(const ProblemFile& file) { return ByRows(file.problem.entries().A); }
+
+void CheckEqual(const ProblemFile& found, const AnyProblem& expected) {
+  CHECK(found.problem.dimension() == expected.dimension());
+  REQUIRE(found.problem.contacts().size() == expected.contacts().size());
+  for (std::size_t i = 0; i < expected.contacts().size(); ++i) {
+    CHECK(found.problem.contacts()[i].kind == expected.contacts()[i].kind);
+    CHECK(found.problem.contacts()[i].mu == expected.contacts()[i].mu);
   }
-  CHECK((found.A == expected.A));
-  CHECK((found.b == expected.b));
+  CHECK((EntriesIn(found) == ByRows(expected.entries().A)));
+  CHECK((found.problem.b() == expected.b()));
 }
 
 TEST_CASE("formats: problems without contacts or without entries are written and read") {
@@ -80,10 +92,11 @@ TEST_CASE("formats: problems without contacts or without entries are written and
       for (const int contacts : {0, 2}) {
         CAPTURE(format.name, storage, contacts);
         const bool lcp = format.name == "siconos-lcp";
-        SparseProblem problem;
+        ExactEntries problem;
         problem.contacts.assign(contacts, {lcp ? ContactKind::kFrictionless : ContactKind::kStatic, 0, {}});
         problem.b = ExactVector::Constant(RowCount(problem.contacts, 2), Rational(1));
-        WritePublished(problem, folder / "empty", format.name, storage, Rounding::kRefused);
+        problem.A.resize(problem.rows(), problem.rows());
+        WritePublished(FileOf(problem), folder / "empty", format.name, storage, Rounding::kRefused);
         CheckEqual(ReadPublished(folder / "empty", format.name), problem);
       }
     }
@@ -92,24 +105,25 @@ TEST_CASE("formats: problems without contacts or without entries are written and
 
 TEST_CASE("formats: numbers that are no doubles are refused, or rounded and counted") {
   const Folder folder;
-  SparseProblem problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 2, 7);
-  problem.A[{0, 0}] = Rational(1, 3);
+  ExactEntries problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 2, 7);
+  problem.A.coeffRef(0, 0) = Rational(1, 3);
   problem.contacts[1].mu = Number("0.3");
   for (const PublishedFormat& format : PublishedFormats()) {
     if (format.name == "siconos-lcp") continue;
     CAPTURE(format.name);
-    CHECK_THROWS_WITH(WritePublished(problem, folder / "x", format.name, "", Rounding::kRefused),
+    CHECK_THROWS_WITH(WritePublished(FileOf(problem), folder / "x", format.name, "", Rounding::kRefused),
                       Contains("A[0][0]") && Contains("1/3") && Contains("--round"));
-    const ExportReport report = WritePublished(problem, folder / "x", format.name, "", Rounding::kAllowed);
+    const ExportReport report =
+        WritePublished(FileOf(problem), folder / "x", format.name, "", Rounding::kAllowed);
     CHECK(report.rounded == 2);
     CHECK(report.largest_change > 0);
     CHECK(report.largest_change < Rational(1, 1000000000));
-    const SparseProblem read = ReadPublished(folder / "x");
-    CHECK(read.A.at({0, 0}) == Rational(1.0 / 3.0));
-    CHECK(read.contacts[1].mu == Rational(0.3));
+    const ProblemFile read = ReadPublished(folder / "x");
+    CHECK(read.problem.dense().A(0, 0) == Rational(1.0 / 3.0));
+    CHECK(read.problem.contacts()[1].mu == Rational(0.3));
   }
   problem.b[0] = Number("1e400");
-  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "fclib", "", Rounding::kAllowed),
+  CHECK_THROWS_WITH(WritePublished(FileOf(problem), folder / "x", "fclib", "", Rounding::kAllowed),
                     Contains("b[0]") && Contains("range of doubles"));
 }
 
@@ -117,25 +131,26 @@ TEST_CASE("formats: contacts that a format does not have are refused") {
   const Folder folder;
   using enum ContactKind;
   const auto refused = [&folder](const std::vector<ContactKind>& kinds, const std::string& format) {
-    const SparseProblem problem = RandomDoubles(kinds, 2, 1);
-    CHECK_THROWS_WITH(WritePublished(problem, folder / "x", format, "", Rounding::kRefused),
+    const ExactEntries problem = RandomDoubles(kinds, 2, 1);
+    CHECK_THROWS_WITH(WritePublished(FileOf(problem), folder / "x", format, "", Rounding::kRefused),
                       Contains("contacts[1]"));
   };
   refused({kFrictionless, kStatic}, "siconos-lcp");
   refused({kStatic, kFrictionless}, "siconos-fc");
   refused({kStatic, kFrictionless}, "fclib");
   refused({kBilateral, kStatic}, "fclib");
-  SparseProblem problem = RandomDoubles({kStatic, kBilateral}, 2, 1);
-  problem.A[{0, 2}] = 1;
-  problem.A.erase({2, 0});
-  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "fclib", "", Rounding::kRefused), Contains("mirror"));
-  CHECK_THROWS_WITH(WritePublished(problem, folder / "x", "siconos-fc", "rows", Rounding::kRefused),
+  ExactEntries problem = RandomDoubles({kStatic, kBilateral}, 2, 1);
+  problem.A.coeffRef(0, 2) = 1;
+  problem.A.coeffRef(2, 0) = 0;
+  CHECK_THROWS_WITH(WritePublished(FileOf(problem), folder / "x", "fclib", "", Rounding::kRefused),
+                    Contains("mirror"));
+  CHECK_THROWS_WITH(WritePublished(FileOf(problem), folder / "x", "siconos-fc", "rows", Rounding::kRefused),
                     Contains("storage 'rows'"));
 }
 
 // ---- Siconos ---------------------------------------------------------------------------------
 
-SparseProblem Parse(const std::string& text) { return ParseSiconos(text, std::nullopt, "file"); }
+ProblemFile Parse(const std::string& text) { return ParseSiconos(text, std::nullopt, "file"); }
 
 const std::string kDense = "2 1 0 2 2 2 2\n 1 2\n 3 4\n -5 0.1\n 0.5\n\nwhatever stands here\n";
 const std::string kBlocks =
@@ -150,36 +165,36 @@ const std::string kTriplet =
     "    1 0 : 0.5\n -1 -2\n";
 
 TEST_CASE("Siconos: a dense matrix stands column by column, q and mu behind it, then a remark") {
-  const SparseProblem problem = Parse(kDense);
-  CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{1, 0}, 2}, {{0, 1}, 3}, {{1, 1}, 4}}));
-  CHECK(problem.b[0] == -5);
-  CHECK(problem.b[1] == Rational(0.1));
-  CHECK(problem.contacts.front().mu == Rational(1, 2));
-  CHECK(problem.origin["storage"] == "dense");
+  const ProblemFile problem = Parse(kDense);
+  CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, 1}, {{1, 0}, 2}, {{0, 1}, 3}, {{1, 1}, 4}}));
+  CHECK(problem.problem.b()[0] == -5);
+  CHECK(problem.problem.b()[1] == Rational(0.1));
+  CHECK(problem.problem.contacts().front().mu == Rational(1, 2));
+  CHECK((*problem.origin)["storage"] == "dense");
 }
 
 TEST_CASE("Siconos: blocks stand row by row, each column by column, missing ones are zero") {
-  const SparseProblem problem = Parse(kBlocks);
-  CHECK((problem.A == SparseMatrix{{{0, 0}, 1},
-                                   {{1, 0}, 2},
-                                   {{0, 1}, 3},
-                                   {{1, 1}, 4},
-                                   {{2, 0}, 5},
-                                   {{3, 0}, 6},
-                                   {{2, 1}, 7},
-                                   {{3, 1}, 8},
-                                   {{2, 2}, 9},
-                                   {{3, 3}, 1}}));
-  CHECK(problem.b[3] == 4);
-  CHECK(problem.contacts[1].mu == 0);
+  const ProblemFile problem = Parse(kBlocks);
+  CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, 1},
+                                            {{1, 0}, 2},
+                                            {{0, 1}, 3},
+                                            {{1, 1}, 4},
+                                            {{2, 0}, 5},
+                                            {{3, 0}, 6},
+                                            {{2, 1}, 7},
+                                            {{3, 1}, 8},
+                                            {{2, 2}, 9},
+                                            {{3, 3}, 1}}));
+  CHECK(problem.problem.b()[3] == 4);
+  CHECK(problem.problem.contacts()[1].mu == 0);
 }
 
 TEST_CASE("Siconos: CSparse text, compressed and triplet, entries listed twice add up") {
-  CHECK((Parse(kColumns).A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, 4}}));
-  const SparseProblem lcp = Parse(kTriplet);
-  CHECK((lcp.A == SparseMatrix{{{0, 0}, 3}, {{1, 0}, Rational(5, 2)}}));
-  CHECK(lcp.contacts.size() == 2);
-  CHECK(lcp.contacts[0].kind == ContactKind::kFrictionless);
+  CHECK((EntriesIn(Parse(kColumns)) == SparseMatrix{{{0, 0}, 3}, {{1, 0}, 4}}));
+  const ProblemFile lcp = Parse(kTriplet);
+  CHECK((EntriesIn(lcp) == SparseMatrix{{{0, 0}, 3}, {{1, 0}, Rational(5, 2)}}));
+  CHECK(lcp.problem.contacts().size() == 2);
+  CHECK(lcp.problem.contacts()[0].kind == ContactKind::kFrictionless);
 }
 
 std::string Without(std::string text, const std::string& part, const std::string& instead) {
@@ -223,10 +238,10 @@ TEST_CASE("Siconos: LCP or friction is told by the first words") {
   CHECK_THROWS_WITH(Parse("hello"), Contains("neither") && Contains("--format"));
   CHECK_THROWS_WITH(Parse(""), Contains("neither"));
   // n = 2, blocks, 2 of them: not one planar contact, csparse.
-  const SparseProblem lcp = Parse("2 1 2 2 2\n2 2\n1 2\n1 2\n3 2\n0 1 2\n0 1\n0\n4\n1\n5\n -1 -2\n");
-  CHECK(lcp.contacts[0].kind == ContactKind::kFrictionless);
-  CHECK((lcp.A == SparseMatrix{{{0, 0}, 4}, {{1, 1}, 5}}));
-  CHECK(Parse(kColumns).contacts[0].kind == ContactKind::kStatic);
+  const ProblemFile lcp = Parse("2 1 2 2 2\n2 2\n1 2\n1 2\n3 2\n0 1 2\n0 1\n0\n4\n1\n5\n -1 -2\n");
+  CHECK(lcp.problem.contacts()[0].kind == ContactKind::kFrictionless);
+  CHECK((EntriesIn(lcp) == SparseMatrix{{{0, 0}, 4}, {{1, 1}, 5}}));
+  CHECK(Parse(kColumns).problem.contacts()[0].kind == ContactKind::kStatic);
 }
 
 TEST_CASE("Siconos: behind the last number may stand a flag, and below an empty line a remark, which is kept") {
@@ -234,7 +249,7 @@ TEST_CASE("Siconos: behind the last number may stand a flag, and below an empty 
   const std::string friction = "2 1 0 2 2 2 2\n1 2\n3 4\n-5 6\n0.5\n";
   const std::string parts = "1 1 1 1\n0 1 2\n0 1\n0 2 2 2 2\n1 2\n3 4\n-5 6\n1 4 3 2 -5 6\n";
   for (const std::string& text : {lcp, friction, parts}) {
-    const SparseProblem problem = Parse(text);
+    const ProblemFile problem = Parse(text);
     for (const auto& [rest, remark] :
          std::vector<std::pair<std::string, std::string>>{{"0", ""},
                                                           {"1\n", ""},
@@ -243,10 +258,10 @@ TEST_CASE("Siconos: behind the last number may stand a flag, and below an empty 
                                                           {"0\n \n# \xff", "# ?"},
                                                           {"\nExample 4.4.7\n 8 9", "Example 4.4.7 8 9"}}) {
       CAPTURE(text, rest);
-      SparseProblem read = Parse(text + rest);
-      CHECK(read.origin.value("remark", "") == remark);
-      read.origin.erase("remark");
-      CheckEqual(read, problem);
+      ProblemFile read = Parse(text + rest);
+      CHECK(read.origin->value("remark", "") == remark);
+      read.origin->erase("remark");
+      CheckEqual(read, problem.problem);
     }
     const std::string line = text == lcp ? "line 5" : text == friction ? "line 6" : "line 9";
     for (const std::string rest : {"garbage", "1 solved", "# a remark", "4.4.7 CPS", "x 0 1", "\xff"}) {
@@ -371,16 +386,16 @@ const std::string kGlobalM = "0\n3\n3\n3\t3\n2 0 0\n0 2 0\n0 0 2\n",
 const std::string kGlobal = "3\n1\n" + kGlobalM + kGlobalH + "-1 -1 -1 0 0 4\n0.1\n0\n";
 
 TEST_CASE("Siconos: a global problem is read in its factors, and the sizes of H are no q and no mu") {
-  const SparseProblem problem = Parse(kGlobal);
-  CHECK(problem.dimension == 3);
-  REQUIRE(problem.contacts.size() == 1);
-  CHECK(problem.contacts[0].mu == Rational(0.1));
+  const ProblemFile problem = Parse(kGlobal);
+  CHECK(problem.problem.dimension() == 3);
+  REQUIRE(problem.problem.contacts().size() == 1);
+  CHECK(problem.problem.contacts()[0].mu == Rational(0.1));
   const Rational half(1, 2);
-  CHECK((problem.A == SparseMatrix{{{0, 0}, half}, {{1, 1}, half}, {{2, 2}, half}}));
-  CHECK((problem.b == ExactVector(Eigen::Map<const ExactVector>(
-                          std::array<Rational, 3>{-half, -half, Rational(7, 2)}.data(), 3))));
-  REQUIRE(problem.factors);
-  CHECK(problem.factors->c[2] == 4);
+  CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, half}, {{1, 1}, half}, {{2, 2}, half}}));
+  CHECK((problem.problem.b() == ExactVector(Eigen::Map<const ExactVector>(
+                                    std::array<Rational, 3>{-half, -half, Rational(7, 2)}.data(), 3))));
+  REQUIRE(problem.problem.factors() != nullptr);
+  CHECK(problem.problem.factors()->c[2] == 4);
   CHECK_THROWS_WITH(ParseSiconos(kGlobal, SiconosKind::kFriction, "file"),
                     Contains("found 18 numbers more, from '3' on") &&
                         Contains("the file is a global friction problem") && Contains("which is not read"));
@@ -396,20 +411,20 @@ TEST_CASE("Siconos: an MLCP is read, its equations as bilateral contacts") {
         std::string("1 1 1 1\n0 1 2\n0 1\n0 2 2 2 2\n4 1\n1 3\n5 -6\n4\n3\n1\n1\n5 -6\n"),
         std::string("0 1 1 1\n4\n3\n1\n1\n5 -6\n"), std::string("1 1 2\n4\n3\n1\n1\n5 -6\n")}) {
     CAPTURE(text);
-    const SparseProblem problem = Parse(text);
-    REQUIRE(problem.contacts.size() == 2);
-    CHECK(problem.contacts[0].kind == ContactKind::kBilateral);
-    CHECK(problem.contacts[1].kind == ContactKind::kFrictionless);
-    CHECK((problem.A == SparseMatrix{{{0, 0}, 4}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 3}}));
-    CHECK(problem.b[0] == 5);
-    CHECK(problem.b[1] == -6);
-    CHECK(problem.origin["format"] == "siconos-mlcp");
+    const ProblemFile problem = Parse(text);
+    REQUIRE(problem.problem.contacts().size() == 2);
+    CHECK(problem.problem.contacts()[0].kind == ContactKind::kBilateral);
+    CHECK(problem.problem.contacts()[1].kind == ContactKind::kFrictionless);
+    CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, 4}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 3}}));
+    CHECK(problem.problem.b()[0] == 5);
+    CHECK(problem.problem.b()[1] == -6);
+    CHECK((*problem.origin)["format"] == "siconos-mlcp");
   }
   // C and D are not each other's mirror; C is 1 x 2, row by row.
-  const SparseProblem parts = Parse("1 2 3\n1\n2 3 4 5\n6 7\n8 9\n0 0 0\n");
-  CHECK(parts.A.at({0, 2}) == 7);
-  CHECK(parts.A.at({2, 0}) == 9);
-  CHECK(parts.A.at({2, 1}) == 4);
+  const ProblemFile parts = Parse("1 2 3\n1\n2 3 4 5\n6 7\n8 9\n0 0 0\n");
+  CHECK(parts.problem.entries().A.coeff(0, 2) == 7);
+  CHECK(parts.problem.entries().A.coeff(2, 0) == 9);
+  CHECK(parts.problem.entries().A.coeff(2, 1) == 4);
   CHECK_THROWS_WITH(Parse("1 1 3\n" + Numbers(9)), Contains("MLCP") && Contains("the number of rows"));
 }
 
@@ -479,31 +494,30 @@ Sets GlobalProblem() {
   return sets;
 }
 
-void CheckCondensed(const SparseProblem& problem) {
-  CHECK((problem.A == SparseMatrix{{{0, 0}, Rational(11, 12)},
-                                   {{0, 1}, Rational(-1, 3)},
-                                   {{1, 0}, Rational(-1, 3)},
-                                   {{1, 1}, Rational(2, 3)},
-                                   {{0, 2}, Rational(1, 2)},
-                                   {{2, 0}, Rational(1, 2)},
-                                   {{2, 2}, 1}}));
-  CHECK((problem.b == Vector({4, 1, 7})));
-  REQUIRE(problem.contacts.size() == 2);
-  CHECK(problem.contacts[0].kind == ContactKind::kStatic);
-  CHECK(problem.contacts[0].mu == Rational(1, 2));
-  CHECK(problem.contacts[1].kind == ContactKind::kBilateral);
+void CheckCondensed(const ProblemFile& problem) {
+  CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, Rational(11, 12)},
+                                            {{0, 1}, Rational(-1, 3)},
+                                            {{1, 0}, Rational(-1, 3)},
+                                            {{1, 1}, Rational(2, 3)},
+                                            {{0, 2}, Rational(1, 2)},
+                                            {{2, 0}, Rational(1, 2)},
+                                            {{2, 2}, 1}}));
+  CHECK((problem.problem.b() == Vector({4, 1, 7})));
+  REQUIRE(problem.problem.contacts().size() == 2);
+  CHECK(problem.problem.contacts()[0].kind == ContactKind::kStatic);
+  CHECK(problem.problem.contacts()[0].mu == Rational(1, 2));
+  CHECK(problem.problem.contacts()[1].kind == ContactKind::kBilateral);
 }
 
 TEST_CASE("FCLIB: a global problem is condensed exactly, its equations are bilateral contacts") {
   const Folder folder;
   WriteSets(folder / "global.hdf5", GlobalProblem());
-  const SparseProblem problem = ReadPublished(folder / "global.hdf5");
+  const ProblemFile problem = ReadPublished(folder / "global.hdf5");
   CheckCondensed(problem);
-  REQUIRE(problem.factors);
-  CHECK(FormA(*problem.factors) == problem.A);
-  CHECK(problem.factors->b == problem.b);
-  CHECK(problem.factors->w == Vector({2, -1, 1}));
-  CHECK(problem.factors->c == Vector({1, 2, 5}));
+  REQUIRE(problem.problem.factors() != nullptr);
+  CHECK(problem.problem.factors()->b == problem.problem.b());
+  CHECK(problem.problem.factors()->w == Vector({2, -1, 1}));
+  CHECK(problem.problem.factors()->c == Vector({1, 2, 5}));
 }
 
 TEST_CASE("FCLIB: a global problem whose M is not symmetric is condensed, and has no factors") {
@@ -511,11 +525,11 @@ TEST_CASE("FCLIB: a global problem whose M is not symmetric is condensed, and ha
   Sets sets = GlobalProblem();
   AddMatrix(sets, "/fclib_global/M", 3, 3, -1, {0, 2, 4, 5}, {0, 1, 0, 1, 2}, {2, 0, 1, 2, 4});
   WriteSets(folder / "global.hdf5", sets);
-  const SparseProblem problem = ReadPublished(folder / "global.hdf5");
-  CHECK_FALSE(problem.factors);
-  CHECK(problem.A.at({0, 1}) == Rational(-1, 4));
-  CHECK(problem.A.count({1, 0}) == 0);
-  CHECK(problem.origin.contains("condensed"));
+  const ProblemFile problem = ReadPublished(folder / "global.hdf5");
+  CHECK(problem.problem.factors() == nullptr);
+  CHECK(problem.problem.entries().A.coeff(0, 1) == Rational(-1, 4));
+  CHECK(problem.problem.entries().A.coeff(1, 0) == 0);
+  CHECK(problem.origin->contains("condensed"));
 }
 
 TEST_CASE(
@@ -600,33 +614,33 @@ TEST_CASE("FCLIB: a malformed file is refused with the place, what was found and
 // ---- Symmetrizing, and the way to a problem file -----------------------------------------------
 
 TEST_CASE("symmetrize: A becomes (A + A')/2 exactly, and the largest difference is kept") {
-  SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 2.5 4\n 0 0");
-  CHECK(LargestAsymmetry(problem).difference == Rational(1, 2));
+  ProblemFile problem = Parse("2 0 2 2 2 2\n 1 2\n 2.5 4\n 0 0");
+  CHECK(LargestAsymmetry(problem.problem).difference == Rational(1, 2));
   Symmetrize(problem);
-  CHECK((problem.A ==
+  CHECK((EntriesIn(problem) ==
          SparseMatrix{{{0, 0}, 1}, {{0, 1}, Rational(9, 4)}, {{1, 0}, Rational(9, 4)}, {{1, 1}, 4}}));
-  CHECK(problem.origin["symmetrized"]["largest difference"] == "1/2");
-  CHECK(problem.origin["symmetrized"]["i"] == 0);
-  CHECK(LargestAsymmetry(problem).difference == 0);
+  CHECK((*problem.origin)["symmetrized"]["largest difference"] == "1/2");
+  CHECK((*problem.origin)["symmetrized"]["i"] == 0);
+  CHECK(LargestAsymmetry(problem.problem).difference == 0);
 }
 
 TEST_CASE("symmetrize: an entry and its missing mirror share what there is, a symmetric A is left alone") {
-  SparseProblem problem = Parse("2 0 2 2 2 2\n 1 2\n 0 4\n 0 0");
+  ProblemFile problem = Parse("2 0 2 2 2 2\n 1 2\n 0 4\n 0 0");
   Symmetrize(problem);
-  CHECK((problem.A == SparseMatrix{{{0, 0}, 1}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 4}}));
-  problem.origin.erase("symmetrized");
+  CHECK((EntriesIn(problem) == SparseMatrix{{{0, 0}, 1}, {{0, 1}, 1}, {{1, 0}, 1}, {{1, 1}, 4}}));
+  problem.origin->erase("symmetrized");
   Symmetrize(problem);
-  CHECK_FALSE(problem.origin.contains("symmetrized"));
+  CHECK_FALSE(problem.origin->contains("symmetrized"));
 }
 
 TEST_CASE("formats: dense and sparse problems are the same problem") {
-  const SparseProblem problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 3, 3);
-  ProblemFile file = ToDense(problem, "file");
+  const ExactEntries problem = RandomDoubles({ContactKind::kStatic, ContactKind::kStatic}, 3, 3);
+  ProblemFile file = FileOf(DenseOf(problem));
   file.name = "name";
-  CheckEqual(ToSparse(ParseProblem(Print(file), "text")), problem);
-  SparseProblem large;
+  CheckEqual(ParseProblem(Print(file), "text"), problem);
+  ExactEntries large;
   large.b.resize(kMostDenseRows + 1);
-  CHECK_THROWS_WITH(ToDense(large, "file"), Contains("4001") && Contains("at most 4000"));
+  CHECK_THROWS_WITH(RequireFewRows(large, "file"), Contains("4001") && Contains("at most 4000"));
 }
 
 }  // namespace

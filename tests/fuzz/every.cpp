@@ -6,11 +6,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <variant>
-
 #include "certify/exact/answer_json.h"
+#include "certify/request/entries.h"
 #include "certify/request/request.h"
-#include "certify/request/solve_sparse.h"
 #include "cli/narration/explained.h"
 #include "cli/narration/surveyed.h"
 #include "corpus/formats/read_problem.h"
@@ -22,8 +20,6 @@
 
 namespace stiction::fuzz {
 namespace {
-
-using Read = std::variant<ProblemFile, SparseProblem>;
 
 constexpr Limits kLimits = {.drives = 50, .pivots = 100, .bits = 5000};
 constexpr int kMostRows = 12;
@@ -72,9 +68,8 @@ void TakeMethods(const ProblemFile& file, const std::string& source) {
       wanted.request.limits = kLimits;
       Unrefused([&] {
         const Request request = RequestOf(wanted, file.problem, source);
-        const Solution solution =
-            SolveAsked(file.problem, request, source, file.factors ? &*file.factors : nullptr);
-        RequireJson(SolutionToJson(solution, file.problem.dimension),
+        const Solution solution = SolveAsked(file.problem, request, source);
+        RequireJson(SolutionToJson(solution, file.problem.dimension()),
                     fmt::format("{} over {}", wanted.method, wanted.arithmetic));
         return true;
       });
@@ -82,10 +77,10 @@ void TakeMethods(const ProblemFile& file, const std::string& source) {
   }
 }
 
-void TakeSparse(const SparseProblem& problem) {
-  for (const std::string_view method : SparseMethods(problem)) {
-    const Solution solution{SolveSparse(problem, {.limits = kLimits}, method)};
-    RequireJson(SolutionToJson(solution, problem.dimension), method);
+void TakeEntries(const AnyProblem& problem) {
+  for (const std::string_view method : MethodsOfEntries(problem)) {
+    const Solution solution{SolveEntries(problem, {.method = method, .limits = kLimits})};
+    RequireJson(SolutionToJson(solution, problem.dimension()), method);
   }
 }
 
@@ -101,19 +96,16 @@ void RequireWritten(const ProblemFile& file) {
 bool FuzzEvery(std::string_view bytes) {
   const MemoryFile input(bytes);
   const std::string source = input.name();
-  const auto read = Unrefused([&]() -> Read { return ReadAnySize(source); });
+  const auto read = Unrefused([&] { return ReadProblem(source, kAnyRows); });
   if (!read) return false;
-  const auto* const sparse = std::get_if<SparseProblem>(&*read);
-  if (sparse != nullptr && sparse->rows() > kMostRows) return true;
-  const ProblemFile file = sparse != nullptr ? ToDense(*sparse, source) : std::get<ProblemFile>(*read);
-  if (!IsSmall(file.problem)) return true;
+  const ProblemFile& file = *read;
+  if (file.problem.rows() > kMostRows || !IsSmall(file.problem)) return true;
   RequireWritten(file);
   STICTION_CHECK(!ProblemDigest(file.problem).empty(), "a problem without a digest");
   TakeMethods(file, source);
-  const SparseProblem entries = ToSparse(file);
-  TakeSparse(entries);
-  RequireJson(Surveyed(entries, source, {.limits = kLimits}), "survey");
-  const Json explained = Explained(*read, {source, kLimits});
+  TakeEntries(file.problem);
+  RequireJson(Surveyed(file.problem, {.limits = kLimits}), "survey");
+  const Json explained = Explained(file, {source, kLimits});
   RequireJson(explained, "explain");
   STICTION_CHECK(!ExplainedText(explained).empty(), "nothing to say of a problem");
   return true;

@@ -162,10 +162,11 @@ class Hdf5Writer {
 bool TakesFclib(std::string image) {
   const auto problem = Unrefused([&image] { return ParseFclib(std::move(image), "input"); });
   if (!problem) return false;
-  const bool printed = problem->rows() <= kMostRowsPrinted && IsInDoubles(*problem);
-  if (!printed || LargestAsymmetry(*problem).difference != 0) return true;
+  const bool is_printed = problem->problem.rows() <= kMostRowsPrinted && IsInDoubles(problem->problem);
+  if (!is_printed || LargestAsymmetry(problem->problem).difference != 0) return true;
   for (const FclibStorage storage : {FclibStorage::kColumns, FclibStorage::kRows, FclibStorage::kTriplet}) {
-    STICTION_CHECK(IsSame(ParseFclib(PrintFclib(*problem, storage), "what was written"), *problem),
+    const std::string printed = PrintFclib(problem->problem.entries(), problem->name, storage);
+    STICTION_CHECK(IsSame(ParseFclib(printed, "what was written").problem, problem->problem),
                    "a problem that is read back to another");
   }
   return true;

@@ -180,8 +180,8 @@ TEST_CASE("problems: any bytes are a valid problem, and zeros an ordinary one") 
     ProblemFile file;
     file.problem = ExtremeProblem(bytes);
     CHECK_NOTHROW(ParseProblem(Print(file), "text"));
-    contacts = std::max(contacts, static_cast<int>(file.problem.contacts.size()));
-    space += file.problem.dimension == 3;
+    contacts = std::max(contacts, static_cast<int>(file.problem.contacts().size()));
+    space += file.problem.dimension() == 3;
     extreme += !Unrefused([&file] { return Rounded<double>(file.problem); });
   }
   CHECK(contacts == 4);

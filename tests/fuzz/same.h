@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corpus/exact_problem.h"
-#include "corpus/record/sparse_problem.h"
+#include "corpus/rounded.h"
 
 namespace stiction::fuzz {
 
@@ -25,20 +25,16 @@ inline bool IsSame(const ExactProblem& left, const ExactProblem& right) {
          left.A == right.A && left.b == right.b;
 }
 
-inline bool IsSame(const SparseProblem& left, const SparseProblem& right) {
-  return left.rows() == right.rows() && left.dimension == right.dimension &&
-         IsSame(left.contacts, right.contacts) && left.A == right.A && left.b == right.b;
-}
-
 // Larger problems are read, and no more: what a target takes is to take no time.
 inline constexpr int kMostRowsPrinted = 60;
 
 // Whether all numbers are doubles, as the formats of others have them.
-inline bool IsInDoubles(const SparseProblem& problem) {
+inline bool IsInDoubles(const AnyProblem& problem) {
   const auto is_double = [](const Rational& x) { return IsExactDouble(x); };
-  return std::ranges::all_of(problem.A, [&](const auto& entry) { return is_double(entry.second); }) &&
-         std::all_of(problem.b.begin(), problem.b.end(), is_double) &&
-         std::ranges::all_of(problem.contacts, [&](const auto& contact) { return is_double(contact.mu); });
+  bool all = std::ranges::all_of(problem.contacts(), [&](const auto& c) { return is_double(c.mu); }) &&
+             std::all_of(problem.b().begin(), problem.b().end(), is_double);
+  ForEachEntry(problem.entries().A, [&](int, int, const Rational& x) { all = all && is_double(x); });
+  return all;
 }
 
 }  // namespace stiction::fuzz

@@ -12,10 +12,10 @@ bool TakesSiconos(const std::string& text, SiconosKind kind) {
   using enum SiconosStorage;
   const auto problem = Unrefused([&text, kind] { return ParseSiconos(text, kind, "input"); });
   if (!problem) return false;
-  if (problem->rows() > kMostRowsPrinted || !IsInDoubles(*problem)) return true;
+  if (problem->problem.rows() > kMostRowsPrinted || !IsInDoubles(problem->problem)) return true;
   for (const SiconosStorage storage : {kDense, kBlocks, kTriplet, kColumns}) {
-    const std::string printed = PrintSiconos(*problem, kind, storage);
-    STICTION_CHECK(IsSame(ParseSiconos(printed, kind, "what was written"), *problem),
+    const std::string printed = PrintSiconos(problem->problem.entries(), kind, storage);
+    STICTION_CHECK(IsSame(ParseSiconos(printed, kind, "what was written").problem, problem->problem),
                    "a problem that is read back to another");
   }
   return true;

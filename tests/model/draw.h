@@ -93,7 +93,7 @@ inline Case DrawProblem(Choices& choices, int dimension, int most_contacts) {
   }
   Case drawn;
   drawn.factors = MakeFactors(dimension, std::move(contacts), std::move(parts)).value();
-  drawn.problem = ToDense(*drawn.factors);
+  drawn.problem = DenseOf(*drawn.factors);
   if (change == 3) {  // unsymmetric, perhaps indefinite
     drawn.problem.A(row, choices.Integer(0, rows - 1)) += DrawFraction(choices, 2);
     drawn.factors.reset();

@@ -20,9 +20,9 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
-#include "certify/request/solve_sparse.h"
+#include "certify/request/entries.h"
 #include "corpus/formats/formats.h"
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/problem_file.h"
 #include "search/units/minimize.h"
 #include "solver/problem/gate.h"
 #include "tests/judge.h"
@@ -43,12 +43,12 @@ struct Fault {
 
 struct Asked {
   Request request;
-  const ExactFactors* factors = nullptr;
+  bool in_factors = false;
 
   std::string Name() const {
     const bool weak = request.law == FrictionLaw::kBaraff && request.method != "baraff";
     return fmt::format("{} over {}{}{}", request.method, stiction::Name(request.arithmetic),
-                       weak ? " by (21), (22)" : "", factors == nullptr ? "" : " in factors");
+                       weak ? " by (21), (22)" : "", in_factors ? " in factors" : "");
   }
   std::string Command() const {
     return fmt::format("stiction solve FILE --method {} --arithmetic {}{}", request.method,
@@ -143,7 +143,7 @@ inline std::string FaultOfAnswer(const ExactProblem& problem, const Truth& truth
       return "falsehood: a solution of a problem that has none";
   } else if (exact == nullptr && outcome == Outcome::kSolved) {
     std::string fault = FaultOf(problem, request, solution);
-    if (!fault.empty() && asked.factors != nullptr)  // by factors, errors are those of the problem itself
+    if (!fault.empty() && asked.in_factors)  // by factors, errors are those of the problem itself
       fault = FaultOf(problem, std::get<InexactAnswer>(solution.answer), GateOf<double>(0));
     if (!fault.empty()) return "gate: " + fault;
   }
@@ -190,7 +190,7 @@ inline std::vector<Asked> AllAsked(const Case& drawn) {
       if (dimension == 3 && exact)  // by (21), (22) forces may be askew to the slip
         all.push_back({RequestFor(method, arithmetic, FrictionLaw::kBaraff)});
       if (by_factors && (exact || arithmetic == Arithmetic::kDouble))
-        all.push_back({RequestFor(method, arithmetic), &*drawn.factors});
+        all.push_back({RequestFor(method, arithmetic), true});
     }
   }
   return all;
@@ -208,7 +208,8 @@ inline Fault FaultIn(const Case& drawn, const Truth& truth, const OfAnswer& also
   for (const Asked& asked : AllAsked(drawn)) {
     std::string fault;
     try {
-      const Solution solution = SolveIn(drawn.problem, asked.request, asked.factors);
+      const AnyProblem problem = asked.in_factors ? AnyProblem(*drawn.factors) : AnyProblem(drawn.problem);
+      const Solution solution = SolveIn(problem, asked.request);
       fault = FaultOfAnswer(drawn.problem, truth, asked, solution);
       if (fault.empty() && also) fault = also(asked, solution);
     } catch (const InputError&) {  // a number that the arithmetic does not hold, or what is not built
@@ -223,15 +224,14 @@ inline Fault FaultIn(const Case& drawn, const Truth& truth, const OfAnswer& also
 // The same of methods that keep A sparse, or in factors. also(name, answer) sees each answer that is right.
 inline Fault FaultOfSparse(const Case& drawn,
                            const std::function<void(const std::string&, const InexactAnswer&)>& also = {}) {
-  SparseProblem problem = ToSparse(FileOf(drawn.problem));
   for (const bool in_factors : {false, true}) {
     if (in_factors && !drawn.factors) continue;
-    if (in_factors) problem.factors = drawn.factors;
-    for (const std::string_view method : SparseMethods(problem)) {
+    const AnyProblem problem = in_factors ? AnyProblem(*drawn.factors) : AnyProblem(EntriesOf(drawn.problem));
+    for (const std::string_view method : MethodsOfEntries(problem)) {
       const Request request = RequestFor(method, Arithmetic::kDouble);
       std::string fault;
       try {
-        const InexactAnswer answer = SolveSparse(problem, request, method);
+        const InexactAnswer answer = SolveEntries(problem, request);
         if (answer.Solved()) fault = FaultOf(drawn.problem, answer, GateOf<double>(0));
         if (also) also(fmt::format("sparse {}{}", method, in_factors ? " in factors" : ""), answer);
       } catch (const std::exception& error) {
@@ -289,15 +289,13 @@ inline std::string FaultOfText(const Case& drawn) {
   ProblemFile file = FileOf(problem);
   std::string fault = FaultOfCopy("a file", problem, ParseProblem(Print(file), "drawn").problem);
   if (!fault.empty()) return fault;
-  const auto sparse = ParseAnySize(Print(ToSparse(file)), "drawn", 0);
-  fault = FaultOfCopy("a file of entries", problem, ToDense(std::get<SparseProblem>(sparse), "drawn").problem);
+  file.problem = EntriesOf(problem);
+  fault = FaultOfCopy("a file of entries", problem, ParseProblem(Print(file), "drawn").problem);
   if (!fault.empty() || !drawn.factors) return fault;
-  file.factors = drawn.factors;
-  const std::string text = Print(file);
-  fault = FaultOfCopy("a file of factors", problem, ParseProblem(text, "drawn").problem);
-  if (!fault.empty()) return fault;
-  const SparseProblem alone = std::get<SparseProblem>(ParseAnySize(text, "drawn", 0));
-  return FaultOfCopy("what keeps factors alone", problem, ToDense(WithMatrix(alone), "drawn").problem);
+  file.problem = *drawn.factors;
+  const AnyProblem read = ParseProblem(Print(file), "drawn").problem;
+  fault = FaultOfCopy("a file of factors", problem, read);
+  return fault.empty() ? FaultOfCopy("the entries of factors", problem, DenseOf(read.entries())) : fault;
 }
 
 // What a format can hold: its kinds of contacts, and whether entries must be those of their mirror image.
@@ -324,15 +322,14 @@ inline std::string FaultOfFormats(const Case& drawn) {
       const auto file = scratch / format.name;
       const bool rounds = storage == format.storages.front();
       try {
-        WritePublished(ToSparse(FileOf(rounds ? drawn.problem : rounded)), file, format.name, storage,
+        WritePublished(FileOf(rounds ? drawn.problem : rounded), file, format.name, storage,
                        rounds ? Rounding::kAllowed : Rounding::kRefused);
       } catch (const InputError& error) {
         if (holds) return fmt::format("export: {} refuses: {}", format.name, error.what());
         break;
       }
       if (!holds) return fmt::format("export: {} holds what it cannot", format.name);
-      const auto copy =
-          FaultOfCopy(format.name.c_str(), rounded, ToDense(ReadPublished(file), "drawn").problem);
+      const auto copy = FaultOfCopy(format.name.c_str(), rounded, ReadPublished(file).problem);
       if (!copy.empty()) return fmt::format("{}, stored as {}", copy, storage);
     }
   }
@@ -430,7 +427,7 @@ inline std::string FaultOfStep(const ExactProblem& from, const Step& step, const
                                Truth& truth) {
   const ExactProblem& to = step.to.problem;
   if (step.to.factors) {
-    const std::string fault = FaultOfCopy("factors", to, ToDense(*step.to.factors));
+    const std::string fault = FaultOfCopy("factors", to, DenseOf(*step.to.factors));
     if (!fault.empty()) return fault;
   }
   if (step.keeps_errors && from.dimension == 2 && ErrorsOf(from, forces) != ErrorsOf(to, step.forward(forces)))
@@ -591,8 +588,8 @@ inline std::string Told(const Values& choices) {
     file.problem = Minimize(file.problem, options).problem;
     fault = look_alone(file.problem);
     walk.steps.clear();
-  } else {
-    file.factors = walk.end().factors;
+  } else if (walk.end().factors) {
+    file.problem = *walk.end().factors;
   }
   return fmt::format("{}\nwalk:{}\nFILE:\n{}\n{}", fault.what, walk.Names(), Print(file), fault.command);
 }

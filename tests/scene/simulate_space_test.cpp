@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "corpus/record/scene_file.h"
-#include "corpus/record/sparse_problem.h"
 #include "scene/simulate.h"
 #include "tests/support.h"
 

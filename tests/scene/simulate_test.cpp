@@ -11,7 +11,6 @@
 #include <random>
 
 #include "corpus/record/scene_file.h"
-#include "corpus/record/sparse_problem.h"
 #include "solver/problem/errors.h"
 #include "tests/factored.h"
 #include "tests/support.h"

@@ -12,7 +12,6 @@
 #include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/scene_file.h"
-#include "corpus/record/sparse_problem.h"
 #include "scene/assemble.h"
 #include "scene/polyhedron.h"
 #include "tests/factored.h"
@@ -520,7 +519,7 @@ TEST_CASE(
       CHECK(IsSymmetric(problem));
       CHECK(IsPositiveSemidefinite(problem));
       CHECK(IsInRange(problem));
-      CHECK(testing::AllOf(solved.model.InFactors(i)) == problem.A);
+      CHECK(DenseOf(solved.model.InFactors(i)).A == problem.A);
     }
     AssembleOptions<Rational> options;
     options.minimal = false;

@@ -78,7 +78,7 @@ TEST_CASE("adversary: any integers are a candidate, over doubles and rationals, 
       REQUIRE(CandidateFromJson(JsonPlace(json, source, "")) == candidate);
       const ProblemFile file = FileOf(candidate, "candidate");
       REQUIRE(file.scene.has_value() == (row.id == GeneratorId::kScenes || row.id == GeneratorId::kFineScenes));
-      REQUIRE(file.problem.A == exact.A);
+      REQUIRE(file.problem.dense().A == exact.A);
     }
   }
 }

@@ -143,8 +143,9 @@ TEST_CASE("record: every false one is caught") {
   record.problem.problem = testing::GiveUpProblem();
   CHECK(FaultOf(record, limits).find("does not loop") != std::string::npos);
   record = SomeRecord("friction");
-  record.problem.problem.b[0] *= 2, record.problem.problem.b[1] *= 2, record.problem.problem.b[2] *= 2,
-      record.problem.problem.b[3] *= 2;  // loops too, but the certificate is of another
+  ExactProblem doubled = record.problem.problem;
+  doubled.b *= Rational(2);
+  record.problem.problem = doubled;  // loops too, but the certificate is of another
   CHECK(FaultOf(record, limits).find("certificate is refused") != std::string::npos);
 }
 

@@ -405,14 +405,16 @@ namespace {
 // Of two contacts with friction before one without, so that A takes as many lines as any: A = diag(1, ...,
 // rows), b = -1.
 Finding FoundBy(std::string_view kind, int dimension, bool is_library) {
-  ProblemFile file;
-  file.problem.dimension = dimension;
-  file.problem.contacts.assign(3, {ContactKind::kStatic, Rational(1, 2), {}});
-  file.problem.contacts[2] = {ContactKind::kFrictionless, 0, {}};
+  ExactProblem problem;
+  problem.dimension = dimension;
+  problem.contacts.assign(3, {ContactKind::kStatic, Rational(1, 2), {}});
+  problem.contacts[2] = {ContactKind::kFrictionless, 0, {}};
   const int rows = 2 * dimension + 1;
-  file.problem.A = ExactProblem::Matrix::Zero(rows, rows);
-  for (int i = 0; i < rows; ++i) file.problem.A(i, i) = i + 1;
-  file.problem.b = ExactProblem::Vector::Constant(rows, Rational(-1));
+  problem.A = ExactProblem::Matrix::Zero(rows, rows);
+  for (int i = 0; i < rows; ++i) problem.A(i, i) = i + 1;
+  problem.b = ExactProblem::Vector::Constant(rows, Rational(-1));
+  ProblemFile file;
+  file.problem = std::move(problem);
   Finding finding;
   finding.kind = kind;
   finding.signature = fmt::format("{}-3c", kind);
@@ -459,10 +461,12 @@ TEST_CASE("under test: a finding of any kind, law and dimension is a program of 
 }
 
 TEST_CASE("under test: a program has the minimized problem, and the bounds and units that its law gives") {
+  ExactProblem problem;
+  problem.contacts = {{ContactKind::kStatic, Rational(1, 2), {}}, {ContactKind::kBilateral, 0, {}}};
+  problem.A = ExactProblem::Matrix::Identity(3, 3);
+  problem.b = ExactProblem::Vector{{Rational(-4), Rational(0), Rational(1)}};
   ProblemFile file;
-  file.problem.contacts = {{ContactKind::kStatic, Rational(1, 2), {}}, {ContactKind::kBilateral, 0, {}}};
-  file.problem.A = ExactProblem::Matrix::Identity(3, 3);
-  file.problem.b = ExactProblem::Vector{{Rational(-4), Rational(0), Rational(1)}};
+  file.problem = std::move(problem);
   Finding finding = FoundBy("silent-wrong", 2, true);
   finding.minimized = Print(file);
   finding.facts = R"({"library": true, "found": {"what": "pulls"}, "minimized": {"what": "moves-inward"}})";

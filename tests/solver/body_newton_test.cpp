@@ -46,7 +46,7 @@ class Draw {
 };
 
 double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
-  return BoundErrors(testing::Dense(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
+  return BoundErrors(DenseOf(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
 }
 
 TEST_CASE("body newton: from a solution it factors nothing, and stays there") {

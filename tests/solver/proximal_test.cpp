@@ -5,7 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "corpus/record/sparse_problem.h"
+#include "corpus/record/sparse_matrix.h"
+#include "corpus/rounded.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -13,23 +14,20 @@ namespace {
 
 using namespace testing;
 
-SparseProblem Sparse(const ExactProblem& problem) {
-  ProblemFile file;
-  file.problem = problem;
-  return ToSparse(file);
+SparseContactProblem<double> InDoubles(const ExactEntries& problem) {
+  return Converted<double>(problem, &ToDouble);
 }
 
 // The error of the doubles in which a run ended, evaluated over rationals.
-Rational ExactResidual(const SparseProblem& problem, const ProximalNewton<double>& method) {
-  const SparseContactProblem<Rational> exact = OverRationals(problem);
+Rational ExactResidual(const ExactEntries& problem, const ProximalNewton<double>& method) {
   const ExactVector f = method.f().unaryExpr([](double x) { return Rational(x); });
-  return LenientErrorOf(exact, f, ExactVector(exact.A * f + exact.b));
+  return LenientErrorOf(problem, f, ExactVector(problem.A * f + problem.b));
 }
 
 // `columns` discs of unit mass in a row of columns, `height` in each, between walls: a disc touches the one
 // below and the one to its left. Gravity pulls down, and each disc is pushed by a small force of its own. Walls
 // and floor carry two layers of contacts, so that A is singular.
-SparseProblem Discs(int columns, int height, const Rational& mu) {
+ExactEntries Discs(int columns, int height, const Rational& mu) {
   struct Touch {
     int disc, other;  // other < 0: fixed
     bool below;
@@ -48,7 +46,8 @@ SparseProblem Discs(int columns, int height, const Rational& mu) {
   // Rows of J: per disc x, y and rotation times radius, whose inertia is 1/2.
   const int rows = 2 * static_cast<int>(touches.size());
   std::map<int, std::vector<std::pair<int, Rational>>> of_coordinate;
-  SparseProblem problem;
+  ExactEntries problem;
+  SparseMatrix A;
   problem.contacts.assign(touches.size(), {ContactKind::kStatic, mu, {}});
   problem.b = ExactVector::Constant(rows, Rational(0));
   for (int c = 0; c < static_cast<int>(touches.size()); ++c) {
@@ -70,10 +69,10 @@ SparseProblem Discs(int columns, int height, const Rational& mu) {
   for (const auto& [coordinate, entries] : of_coordinate) {
     const int inverse_mass = coordinate % 3 == 2 ? 2 : 1;
     for (const auto& [i, x] : entries) {
-      for (const auto& [j, y] : entries) problem.A[{i, j}] += inverse_mass * x * y;
+      for (const auto& [j, y] : entries) A[{i, j}] += inverse_mass * x * y;
     }
   }
-  std::erase_if(problem.A, [](const auto& entry) { return entry.second == 0; });
+  problem.A = ToEigen(A, rows, rows);
   return problem;
 }
 
@@ -81,7 +80,7 @@ TEST_CASE("proximal: a thousand contacts of a heap, A singular, with friction an
   for (const Rational& mu : {Rational(1, 5), Rational(0), Rational(3, 2)}) {
     if (Short() && mu != Rational(1, 5)) continue;
     CAPTURE(mu);
-    const SparseProblem heap = Discs(30, 16, mu);
+    const ExactEntries heap = Discs(30, 16, mu);
     REQUIRE(heap.contacts.size() > 1000);
     ProximalNewton<double> method;
     const RunEnd<> verdict = method.Run(InDoubles(heap));
@@ -97,17 +96,17 @@ TEST_CASE("proximal: bilateral, frictionless and sliding contacts, and an A with
   problem.contacts[0].kind = ContactKind::kBilateral;
   problem.contacts[2] = {ContactKind::kSliding, Rational(1, 2), {1, 0}};
   ProximalNewton<double> method;
-  REQUIRE(method.Run(InDoubles(Sparse(problem))).outcome == Outcome::kSolved);
+  REQUIRE(method.Run(InDoubles(EntriesOf(problem))).outcome == Outcome::kSolved);
   const Eigen::VectorXd f = method.f(), a = method.a();
   CHECK(std::abs(a[0]) < 1e-7);
   CHECK(f[0] < 0);  // a bilateral force may pull
   CHECK(f[3] == Approx(-f[2] / 2));
   CHECK(a[1] >= -1e-7);
-  CHECK(ExactResidual(Sparse(problem), method) <= Rational(1, 100000000));
+  CHECK(ExactResidual(EntriesOf(problem), method) <= Rational(1, 100000000));
 
-  CHECK(method.Run(InDoubles(Sparse(NoContacts()))).outcome == Outcome::kSolved);
+  CHECK(method.Run(InDoubles(EntriesOf(NoContacts()))).outcome == Outcome::kSolved);
   const ExactProblem weightless = MakeProblem({-1}, {{0}}, {1});
-  CHECK(method.Run(InDoubles(Sparse(weightless))).outcome == Outcome::kSolved);
+  CHECK(method.Run(InDoubles(EntriesOf(weightless))).outcome == Outcome::kSolved);
 }
 
 // Of the first, forces that grow without end solve a problem whose mu differs by ever less: they may be called
@@ -115,7 +114,7 @@ TEST_CASE("proximal: bilateral, frictionless and sliding contacts, and an A with
 TEST_CASE("proximal: without a solution, undecided, or solved by forces so large that mu need hardly differ") {
   ProximalNewton<double> method;
   for (const ExactProblem& problem : {NoSolution(), MakeProblem({-1}, {{0}}, {-1})}) {
-    const RunEnd<> verdict = method.Run(InDoubles(Sparse(problem)));
+    const RunEnd<> verdict = method.Run(InDoubles(EntriesOf(problem)));
     if (verdict.outcome == Outcome::kSolved) {
       CHECK(method.f().cwiseAbs().maxCoeff() > 1e7);
       continue;

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "corpus/record/sparse_problem.h"
 #include "solver/linear/direction.ipp"
 #include "solver/problem/reduction.ipp"
 #include "solver/published/published.ipp"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/request/solve_sparse.h"
+#include "certify/request/entries.h"
 
 #include "certify/exact/inexact.h"
 #include "certify/exact/newton_bodies.h"
-#include "corpus/record/sparse_problem.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/errors.h"
@@ -31,9 +30,9 @@ InexactAnswer InSpace(const Sparse& problem, double residual, const Request& req
 }
 
 // A as it is listed.
-InexactAnswer SolveListed(const SparseProblem& problem, const Request& request) {
+InexactAnswer SolveListed(const ExactEntries& problem, const Request& request) {
   const double residual = ResidualOf<double>(request);
-  const Sparse rounded = InDoubles(problem);
+  const Sparse rounded = Converted<double>(problem, &ToDouble);
   InexactAnswer answer =
       problem.dimension == 2 ? InPlane(rounded, residual, request) : InSpace(rounded, residual, request);
   answer.law = FrictionLaw::kCoulomb;
@@ -43,28 +42,22 @@ InexactAnswer SolveListed(const SparseProblem& problem, const Request& request) 
     return answer;
   }
   answer.a = rounded.A * answer.f + rounded.b;
-  const auto rational = OverRationals(problem);
   const ExactProblem::Vector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  JudgeExactly(rational, f, rational.A * f + rational.b, residual, answer);
+  JudgeExactly(problem, f, problem.A * f + problem.b, residual, answer);
   return answer;
 }
 
 }  // namespace
 
-std::vector<std::string_view> SparseMethods(const SparseProblem& problem) {
-  const std::string_view listed = problem.dimension == 2 ? "proximal" : "fast";
-  if (problem.factors) return {kNewtonBodies, listed};
+std::vector<std::string_view> MethodsOfEntries(const AnyProblem& problem) {
+  const std::string_view listed = problem.dimension() == 2 ? "proximal" : "fast";
+  if (problem.factors() != nullptr) return {kNewtonBodies, listed};
   return {listed};
 }
 
-InexactAnswer SolveSparse(const SparseProblem& problem, const Request& request, std::string_view method) {
-  const bool any = method == kAutomatic;
-  if (!problem.factors || (!any && method != kNewtonBodies)) return SolveListed(WithMatrix(problem), request);
-  InexactAnswer answer = SolveByBodies(*problem.factors, request);
-  if (answer.Solved() || !any || request.limits.Stopped()) return answer;
-  InexactAnswer other = SolveListed(WithMatrix(problem), request);
-  const bool is_better = other.errors && (!answer.errors || other.residual() < answer.residual());
-  return other.Solved() || is_better ? other : answer;
+InexactAnswer SolveEntries(const AnyProblem& problem, const Request& request) {
+  const bool in_factors = request.method == kNewtonBodies && problem.factors() != nullptr;
+  return in_factors ? SolveByBodies(*problem.factors(), request) : SolveListed(problem.entries(), request);
 }
 
 }  // namespace stiction
