@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/completion.bash_in.h"
 #include "cli/help.h"
 #include "cli/schema.h"
 #include "cli/words.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
+#include "corpus/text_template.h"
 #include "search/campaign.h"
 
 namespace stiction {
@@ -148,9 +150,7 @@ std::string ManPage(const CommandLine& program) {
   }
   text += Section("EXIT STATUS") + Lines(program.footer);
   text += Section("WORDS");
-  for (const Word& word : AllWords())
-    text += Paragraph(word.name, fmt::format("{}{}", word.meaning,
-                                             word.source.empty() ? "" : fmt::format(" ({})", word.source)));
+  for (const Json& word : AllWords()) text += Paragraph(word["word"].get<std::string>(), MeaningOf(word));
   text += ".PP\nNumbers in brackets are sections of the paper.\n";
   text += Section("EXAMPLES");
   for (const auto& [command, says] : std::initializer_list<std::pair<std::string_view, std::string_view>>{
@@ -190,31 +190,9 @@ std::string BashCompletion(const CommandLine& program) {
     options += OptionArm(verb);
     values += ValueArms(verb);
   }
-  return fmt::format(R"(# bash completion of stiction; written by `stiction manual --format bash`.
-_stiction() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options= values=
-  COMPREPLY=()
-  if ((COMP_CWORD == 1)) || [[ $verb == help && $COMP_CWORD == 2 ]]; then
-    mapfile -t COMPREPLY < <(compgen -W {} -- "$word")
-    return
-  fi
-  case "$verb $before" in
-{}  esac
-  if [[ -n $values ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
-    return
-  fi
-  case $verb in
-{}  esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
-  else
-    mapfile -t COMPREPLY < <(compgen -f -- "$word")
-  fi
-}}
-complete -o filenames -F _stiction stiction
-)",
-                     Quoted(Words(verbs) + " help --help --version"), values, options);
+  return Filled(
+      kCompletionBash,
+      {{{"VERBS", Quoted(Words(verbs) + " help --help --version")}, {"VALUES", values}, {"OPTIONS", options}}});
 }
 
 // Verbs with their rows, as a program reads them.
