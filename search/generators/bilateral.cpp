@@ -5,9 +5,8 @@
 #include "search/generators/integer_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct Bilateral {
+Generator MakeBilateral() {
   static constexpr GeneratorRow kRow = {
       .name = "bilateral",
       .distribution =
@@ -17,15 +16,9 @@ struct Bilateral {
       .exact_in_double = true,
       .other_kind = ContactKind::kBilateral,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given&, Choices& choices, auto& problem) {
     return WithOtherKinds(kRow.other_kind, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeBilateral() { return GeneratorOf<Bilateral>(); }
+  });
+}
 
 }  // namespace stiction::generators

@@ -102,7 +102,9 @@ int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>
   return 3 * bodies;
 }
 
-struct Bodies {
+}  // namespace
+
+Generator MakeBodies() {
   static constexpr GeneratorRow kRow = {
       .name = "bodies",
       .distribution =
@@ -112,15 +114,9 @@ struct Bodies {
       .exact_in_double = false,
       .has_gravity = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillBodies(given.gravity_only, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeBodies() { return GeneratorOf<Bodies>(); }
+  });
+}
 
 }  // namespace stiction::generators

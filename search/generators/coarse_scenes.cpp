@@ -5,9 +5,8 @@
 #include "search/generators/scene_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct Scenes {
+Generator MakeScenes() {
   static constexpr GeneratorRow kRow = {
       .name = "scenes",
       .distribution =
@@ -20,15 +19,9 @@ struct Scenes {
       .exact_in_double = false,
       .has_gravity = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillScene(kCoarseScenes, given.gravity_only, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeScenes() { return GeneratorOf<Scenes>(); }
+  });
+}
 
 }  // namespace stiction::generators

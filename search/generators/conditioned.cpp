@@ -81,7 +81,9 @@ int FillConditioned(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   return columns;
 }
 
-struct Conditioned {
+}  // namespace
+
+Generator MakeConditioned() {
   static constexpr GeneratorRow kRow = {
       .name = "conditioned",
       .distribution =
@@ -90,15 +92,8 @@ struct Conditioned {
           "A = J J', b = J y with integers in [-5, 5].",
       .exact_in_double = false,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillConditioned(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeConditioned() { return GeneratorOf<Conditioned>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillConditioned(choices, problem); });
+}
 
 }  // namespace stiction::generators

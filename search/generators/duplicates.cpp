@@ -36,7 +36,9 @@ int FillDuplicates(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   return std::min(columns, 2 * (contacts - copies));
 }
 
-struct Duplicates {
+}  // namespace
+
+Generator MakeDuplicates() {
   static constexpr GeneratorRow kRow = {
       .name = "duplicates",
       .distribution =
@@ -45,15 +47,8 @@ struct Duplicates {
           "has no copy.",
       .exact_in_double = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillDuplicates(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeDuplicates() { return GeneratorOf<Duplicates>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillDuplicates(choices, problem); });
+}
 
 }  // namespace stiction::generators

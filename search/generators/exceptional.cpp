@@ -151,7 +151,9 @@ int FillExceptional(const std::array<MuChoice, kMaxContacts>& mu, Choices& choic
   return std::min(columns, rows - jam.kernel);
 }
 
-struct Exceptional {
+}  // namespace
+
+Generator MakeExceptional() {
   static constexpr GeneratorRow kRow = {
       .name = "exceptional",
       .distribution =
@@ -166,15 +168,9 @@ struct Exceptional {
       .dimension = 3,
       .most_mu_part = 16,  // numbers are multiples of it, and must stay exact
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillExceptional<Scalar>(given.mu, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeExceptional() { return GeneratorOf<Exceptional>(); }
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
+    return FillExceptional(given.mu, choices, problem);
+  });
+}
 
 }  // namespace stiction::generators

@@ -5,9 +5,8 @@
 #include "search/generators/scene_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct FineScenes {
+Generator MakeFineScenes() {
   static constexpr GeneratorRow kRow = {
       .name = "fine-scenes",
       .distribution =
@@ -17,15 +16,9 @@ struct FineScenes {
       .exact_in_double = false,
       .has_gravity = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillScene(kFineScenes, given.gravity_only, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeFineScenes() { return GeneratorOf<FineScenes>(); }
+  });
+}
 
 }  // namespace stiction::generators

@@ -5,9 +5,8 @@
 #include "search/generators/integer_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct Integers {
+Generator MakeIntegers() {
   static constexpr GeneratorRow kRow = {
       .name = "integers",
       .distribution =
@@ -15,15 +14,8 @@ struct Integers {
           "y or b = A x with integers in [-5, 5].",
       .exact_in_double = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillIntegers(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeIntegers() { return GeneratorOf<Integers>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillIntegers(choices, problem); });
+}
 
 }  // namespace stiction::generators

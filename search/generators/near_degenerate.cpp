@@ -61,7 +61,9 @@ int FillNearDegenerate(const std::array<MuChoice, kMaxContacts>& mu, Choices& ch
   return columns;
 }
 
-struct NearDegenerate {
+}  // namespace
+
+Generator MakeNearDegenerate() {
   static constexpr GeneratorRow kRow = {
       .name = "near-degenerate",
       .distribution =
@@ -71,15 +73,9 @@ struct NearDegenerate {
       .exact_in_double = true,
       .most_mu_part = 64,  // forces are multiples of it, and must stay exact
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillNearDegenerate(given.mu, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeNearDegenerate() { return GeneratorOf<NearDegenerate>(); }
+  });
+}
 
 }  // namespace stiction::generators

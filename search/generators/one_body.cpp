@@ -40,7 +40,9 @@ int FillOneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows
   return 3;
 }
 
-struct OneBody {
+}  // namespace
+
+Generator MakeOneBody() {
   static constexpr GeneratorRow kRow = {
       .name = "one-body",
       .distribution =
@@ -51,15 +53,9 @@ struct OneBody {
       .exact_in_double = false,
       .has_gravity = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillOneBody(given.gravity_only, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeOneBody() { return GeneratorOf<OneBody>(); }
+  });
+}
 
 }  // namespace stiction::generators

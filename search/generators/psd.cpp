@@ -27,7 +27,9 @@ int FillPsd(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   return columns;
 }
 
-struct Psd {
+}  // namespace
+
+Generator MakePsd() {
   static constexpr GeneratorRow kRow = {
       .name = "psd",
       .distribution =
@@ -35,15 +37,8 @@ struct Psd {
           "b = A x with multiples of 2^-11 in [-1, 1).",
       .exact_in_double = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillPsd(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakePsd() { return GeneratorOf<Psd>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillPsd(choices, problem); });
+}
 
 }  // namespace stiction::generators

@@ -5,9 +5,8 @@
 #include "search/generators/integer_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct Sliding {
+Generator MakeSliding() {
   static constexpr GeneratorRow kRow = {
       .name = "sliding",
       .distribution =
@@ -17,15 +16,9 @@ struct Sliding {
       .exact_in_double = true,
       .other_kind = ContactKind::kSliding,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given&, Choices& choices, auto& problem) {
     return WithOtherKinds(kRow.other_kind, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeSliding() { return GeneratorOf<Sliding>(); }
+  });
+}
 
 }  // namespace stiction::generators

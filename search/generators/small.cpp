@@ -23,7 +23,9 @@ int FillSmall(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   return columns;
 }
 
-struct Small {
+}  // namespace
+
+Generator MakeSmall() {
   static constexpr GeneratorRow kRow = {
       .name = "small",
       .distribution =
@@ -31,15 +33,8 @@ struct Small {
           "1..2n; A = J J', b = J y with integers in [-2, 2].",
       .exact_in_double = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillSmall(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeSmall() { return GeneratorOf<Small>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillSmall(choices, problem); });
+}
 
 }  // namespace stiction::generators

@@ -5,9 +5,8 @@
 #include "search/generators/integer_problem.h"
 
 namespace stiction::generators {
-namespace {
 
-struct Space {
+Generator MakeSpace() {
   static constexpr GeneratorRow kRow = {
       .name = "space",
       .distribution =
@@ -18,15 +17,8 @@ struct Space {
       .exact_in_double = true,
       .dimension = 3,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillIntegers(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeSpace() { return GeneratorOf<Space>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillIntegers(choices, problem); });
+}
 
 }  // namespace stiction::generators

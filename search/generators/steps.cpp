@@ -366,7 +366,9 @@ int FillSteps(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>
   return columns;
 }
 
-struct Steps {
+}  // namespace
+
+Generator MakeSteps() {
   static constexpr GeneratorRow kRow = {
       .name = "steps",
       .distribution =
@@ -377,15 +379,8 @@ struct Steps {
           "and velocities u as floats, A = J W J' and b = J u exactly.",
       .exact_in_double = false,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillSteps(given, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeSteps() { return GeneratorOf<Steps>(); }
+  return GeneratorOf<kRow>(
+      [](const Given& given, Choices& choices, auto& problem) { return FillSteps(given, choices, problem); });
+}
 
 }  // namespace stiction::generators
