@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "corpus/named_rows.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {
@@ -72,12 +73,6 @@ std::string Notes(const OptionRow& row) {
   return notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
 }
 
-std::string NamesOf(const std::vector<AllowedValue>& choices) {
-  std::vector<std::string_view> names;
-  for (const AllowedValue& choice : choices) names.push_back(choice.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 std::string EntryOf(const OptionRow& row) {
   std::string entry = HelpEntry(TermOf(row), MeaningOf(row));
   if (!AreExplained(row.choices)) return entry;
@@ -126,7 +121,8 @@ std::string TermOf(const OptionRow& row) {
 
 std::string MeaningOf(const OptionRow& row) {
   std::string text = row.help;
-  if (!row.choices.empty() && !AreExplained(row.choices)) text += ": " + NamesOf(row.choices);
+  if (!row.choices.empty() && !AreExplained(row.choices))
+    text += fmt::format(": {}", fmt::join(NamesOf(row.choices), ", "));
   return text + Notes(row) + (row.details.empty() ? "" : ". " + row.details);
 }
 

@@ -19,6 +19,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
+#include "corpus/named_rows.h"
 #include "corpus/text_template.h"
 #include "search/campaign.h"
 
@@ -90,10 +91,10 @@ std::string ValueArms(const Verb& verb) {
   std::string arms;
   for (const OptionRow& row : verb.rows) {
     if (row.kind != RowKind::kOption || row.choices.empty()) continue;
-    std::vector<std::string> patterns, values;
+    std::vector<std::string> patterns;
     for (const std::string& name : Spellings(row)) patterns.push_back(fmt::format("'{} {}'", verb.name, name));
-    for (const AllowedValue& choice : row.choices) values.push_back(choice.name);
-    arms += fmt::format("    {}) values={} ;;\n", fmt::join(patterns, " | "), Quoted(Words(values)));
+    arms +=
+        fmt::format("    {}) values={} ;;\n", fmt::join(patterns, " | "), Quoted(Words(NamesOf(row.choices))));
   }
   return arms;
 }
@@ -163,8 +164,7 @@ std::string ManPage(const CommandLine& program) {
 
 // The page of the program stiction-bench, which reads the words of the verb bench.
 std::string ManPageOfBench(const CommandLine& program) {
-  const auto is_bench = [](const Verb& each) { return each.name == "bench"; };
-  const Verb& verb = *std::find_if(program.verbs.begin(), program.verbs.end(), is_bench);
+  const Verb& verb = *RowNamed(program.verbs, "bench");
   std::string text = fmt::format(".TH STICTION\\-BENCH 1 \"\" \"{}\" \"User commands\"\n",
                                  Escaped(NameAndNumber(program.version)));
   text += Section("NAME") + "stiction\\-bench \\- " + Escaped(verb.purpose) + "\n";
@@ -183,16 +183,14 @@ std::string ManPageOfBench(const CommandLine& program) {
 
 // A script for bash: verbs, their options, and the values of those that have a list; files elsewhere.
 std::string BashCompletion(const CommandLine& program) {
-  std::vector<std::string> verbs;
   std::string options, values;
   for (const Verb& verb : program.verbs) {
-    verbs.push_back(verb.name);
     options += OptionArm(verb);
     values += ValueArms(verb);
   }
-  return Filled(
-      kCompletionBash,
-      {{{"VERBS", Quoted(Words(verbs) + " help --help --version")}, {"VALUES", values}, {"OPTIONS", options}}});
+  return Filled(kCompletionBash, {{{"VERBS", Quoted(Words(NamesOf(program.verbs)) + " help --help --version")},
+                                   {"VALUES", values},
+                                   {"OPTIONS", options}}});
 }
 
 // Verbs with their rows, as a program reads them.

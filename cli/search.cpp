@@ -25,6 +25,7 @@
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/machine.h"
+#include "corpus/named_rows.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/fields.ipp"
 #include "corpus/record/kinds.h"
@@ -611,13 +612,6 @@ std::string MinutesError(const std::string& text) {
 }
 
 template <class Rows>
-std::vector<std::string> NamesOf(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const auto& row : rows) names.emplace_back(row.name);
-  return names;
-}
-
-template <class Rows>
 std::string HelpOf(const Rows& rows) {
   std::string help;
   for (const auto& row : rows) help += fmt::format("\n  {}: {}", row.name, row.help);
@@ -651,9 +645,7 @@ void AddOption(Verb& verb, const FieldOf<Campaign>& field, Given& given) {
 }
 
 void AddCampaignOptions(Verb& verb, CampaignWords& o) {
-  std::vector<std::string> names;
-  for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
-  verb.Option("-g,--generator", o.generators, "only these generators").OneOf(names);
+  verb.Option("-g,--generator", o.generators, "only these generators").OneOf(NamesOf(Generators()));
   verb.Option("-c,--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
   verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
   verb.Option("-p,--policy", o.policies, "policies to run, as 'stiction policies' lists them; by default paper")

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/help.h"
+#include "corpus/named_rows.h"
 #include "corpus/rational.h"
 
 namespace stiction {
@@ -85,8 +86,7 @@ std::string ExpectedNumber(const OptionRow& row) {
 
 std::string ErrorOf(const OptionRow& row, const std::string& word) {
   if (!row.choices.empty()) {
-    std::vector<std::string> names;
-    for (const AllowedValue& choice : row.choices) names.push_back(choice.name);
+    const std::vector<std::string> names = NamesOf(row.choices);
     if (std::find(names.begin(), names.end(), word) == names.end()) {
       const std::string nearest = Nearest(word, names);
       std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";

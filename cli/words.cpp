@@ -32,7 +32,7 @@ namespace {
 std::string TextOf(const Json& word) { return HelpEntry(word["word"].get<std::string>(), MeaningOf(word)); }
 
 // "start, period" -> both.
-std::vector<std::string_view> NamesOf(const Json& word) {
+std::vector<std::string_view> NamesIn(const Json& word) {
   std::vector<std::string_view> names;
   for (std::string_view rest = word["word"].get_ref<const std::string&>(); !rest.empty();) {
     const std::size_t comma = std::min(rest.find(", "), rest.size());
@@ -70,7 +70,7 @@ std::string GlossaryOf(std::string_view text) {
   std::string glossary;
   for (const Json& word : AllWords()) {
     const auto stands = [text](std::string_view name) { return StandsIn(text, name); };
-    if (std::ranges::any_of(NamesOf(word), stands)) glossary += TextOf(word);
+    if (std::ranges::any_of(NamesIn(word), stands)) glossary += TextOf(word);
   }
   return glossary;
 }
