@@ -11,6 +11,7 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
+#include "corpus/named_rows.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 
@@ -231,11 +232,6 @@ std::span<const Objective> Objectives() {
   return kRows;
 }
 
-const Objective* FindObjective(std::string_view name) {
-  const auto rows = Objectives();
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [name](const Objective& o) { return o.name == name; });
-  return row == rows.end() ? nullptr : &*row;
-}
+const Objective* FindObjective(std::string_view name) { return RowNamed(Objectives(), name); }
 
 }  // namespace stiction

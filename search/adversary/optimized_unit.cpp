@@ -20,11 +20,9 @@ constexpr std::size_t kElitesOfUnit = 8;
 constexpr std::size_t kParents = 16;
 constexpr std::size_t kSmallerParents = 2;  // of each size
 
-bool Better(const Elite& left, const Elite& right) { return right.worth < left.worth; }
-
 // The best first, each problem once, at most so many.
 void KeepBest(std::vector<Elite>& elites, std::size_t most) {
-  std::stable_sort(elites.begin(), elites.end(), Better);
+  std::ranges::stable_sort(elites, IsBetter);
   std::vector<Elite> kept;
   for (Elite& elite : elites) {
     const auto same = [&elite](const Elite& other) { return other.candidate == elite.candidate; };
@@ -151,15 +149,15 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
 
   UnitResult result;
   result.problems = optimized.evaluations;
-  UnitElites elites{{}, optimized.evaluations, optimized.confirmations, optimized.denied};
-  for (const Assessed& assessed : optimized.elites)
-    elites.elites.push_back({assessed.candidate, assessed.worth});
+  UnitElites elites{{optimized.elites.begin(), optimized.elites.end()},
+                    optimized.evaluations,
+                    optimized.confirmations,
+                    optimized.denied};
   KeepBest(elites.elites, kElitesOfUnit);
   result.elites = ToText(elites);
   if (tries) return result;  // of a solver under test, which may be in space, no run of the published algorithm
   // The best loops stand for their signatures.
-  std::stable_sort(optimized.loops.begin(), optimized.loops.end(),
-                   [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
+  std::ranges::stable_sort(optimized.loops, IsBetter);
   std::int64_t index = 0;
   for (const Assessed& assessed : optimized.loops) {
     const ExactProblem problem = ExactOf(assessed.candidate);
@@ -186,7 +184,7 @@ std::vector<Elite> BestOf(const Store& store, std::size_t most) {
     KeepBest(elites, most);
     best.insert(best.end(), elites.begin(), elites.end());
   }
-  std::stable_sort(best.begin(), best.end(), Better);
+  std::ranges::stable_sort(best, IsBetter);
   return best;
 }
 

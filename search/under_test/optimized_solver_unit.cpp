@@ -24,14 +24,15 @@ class Aim {
   Aim(const Campaign& campaign, std::int64_t unit, SolverProcess& process, const TellFinding& tell)
       : campaign_(campaign), unit_(unit), process_(process), tell_(tell) {}
 
-  Tried Try(const Candidate& candidate, const ContactProblem<double>& problem) {
+  void Try(Assessed& assessed, const ContactProblem<double>& problem) {
     const ContactProblem<double> posed = PosedFor(campaign_.solver.law, problem);
     const Examined examined = Examine(process_, posed);
-    if (examined.Fails()) Find(candidate, posed, examined);
+    if (examined.Fails()) Find(assessed.candidate, posed, examined);
     ++index_;
-    const bool by_time = campaign_.objective == "time";
-    const std::optional<double> value = by_time ? TimeOf(posed, examined) : ErrorOf(examined);
-    return {value, {examined.says_solved, static_cast<std::int64_t>(std::floor(value.value_or(0)))}};
+    const std::optional<double> value =
+        campaign_.objective == "time" ? TimeOf(posed, examined) : ErrorOf(examined);
+    assessed.worth.value = value;
+    assessed.behaviour = {examined.says_solved, static_cast<std::int64_t>(std::floor(value.value_or(0)))};
   }
 
   // Counts of signatures, and the first of each.
@@ -82,11 +83,9 @@ UnitResult RunOptimizedSolverUnit(const Campaign& campaign, std::int64_t unit, S
                                   const TellFinding& tell) {
   process.Restart();
   Aim aim(campaign, unit, process, tell);
-  UnitResult result =
-      RunOptimizedUnit(campaign, unit, parents, cancelled,
-                       [&aim](const Candidate& candidate, const ContactProblem<double>& problem) {
-                         return aim.Try(candidate, problem);
-                       });
+  UnitResult result = RunOptimizedUnit(
+      campaign, unit, parents, cancelled,
+      [&aim](Assessed& assessed, const ContactProblem<double>& problem) { aim.Try(assessed, problem); });
   result.record = std::move(aim.record);
   result.candidates = std::move(aim.findings);
   return result;
