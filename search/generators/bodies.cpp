@@ -36,54 +36,25 @@ Body<Scalar> DrawBody(bool gravity, bool applied, Choices& choices) {
   return body;
 }
 
-// Contact point and unit normal (nx, ny); the tangent is (-ny, nx).
-template <class Scalar>
-struct ContactFrame {
-  int x, y;  // in tenths
-  Scalar nx, ny;
-};
-
-// Normals 2pq : p^2 - q^2 over p^2 + q^2, all quadrants; p = q = 0 counts as (1, 0): straight up.
-template <class Scalar>
-ContactFrame<Scalar> DrawContactFrame(Choices& choices) {
-  const int x = static_cast<int>(choices.Integer(-20, 20));
-  const int y = static_cast<int>(choices.Integer(-20, 20));
-  int p = static_cast<int>(choices.Integer(-7, 7));
-  const int q = static_cast<int>(choices.Integer(-7, 7));
-  if (p == 0 && q == 0) p = 1;
-  const Scalar length = Scalar(p * p + q * q);
-  return {x, y, Scalar(2 * p * q) / length, Scalar(p * p - q * q) / length};
-}
-
-// The rows of one contact in the columns of one body: sign * (n, r x n) and sign * (t, r x t).
-template <class Scalar, class Columns>
-void SetContactRows(const ContactFrame<Scalar>& frame, const Body<Scalar>& body, int contact, int index,
-                    int sign, Columns& J) {
-  const Scalar rx = Scalar(frame.x - body.x) / Scalar(10);
-  const Scalar ry = Scalar(frame.y - body.y) / Scalar(10);
-  const Scalar nx = Scalar(sign) * frame.nx;
-  const Scalar ny = Scalar(sign) * frame.ny;
-  J(2 * contact, 3 * index) = nx;
-  J(2 * contact, 3 * index + 1) = ny;
-  J(2 * contact, 3 * index + 2) = rx * ny - ry * nx;
-  J(2 * contact + 1, 3 * index) = -ny;
-  J(2 * contact + 1, 3 * index + 1) = nx;
-  J(2 * contact + 1, 3 * index + 2) = rx * nx + ry * ny;
-}
-
 // J by contacts: contact i < bodies is one of body i, so that each body has one; the partner is the world
-// or another body. One point and one frame per contact, so that all arms fit together.
+// or another body. One point, in tenths, and one normal per contact, so that all arms fit together.
 template <class Scalar, int Rows>
 BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<Body<Scalar>, kMaxBodies>& body,
                                         Choices& choices) {
   BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, bodies);
   for (int contact = 0; contact < rows / 2; ++contact) {
-    const ContactFrame<Scalar> frame = DrawContactFrame<Scalar>(choices);
+    const int x = static_cast<int>(choices.Integer(-20, 20)), y = static_cast<int>(choices.Integer(-20, 20));
+    const Vector2<Scalar> normal = DrawNormal<Scalar>(7, choices);
+    const auto set = [&](int index, int sign) {
+      const Vector2<Scalar> arm = MakeVector2<Scalar>(Scalar(Scalar(x - body[index].x) / Scalar(10)),
+                                                      Scalar(Scalar(y - body[index].y) / Scalar(10)));
+      SetSceneRows<Scalar>(normal, arm, contact, index, sign, J);
+    };
     const int mine = contact < bodies ? contact : static_cast<int>(choices.Integer(0, bodies - 1));
     const int offset = static_cast<int>(choices.Integer(0, bodies - 1));  // 0: the world
-    SetContactRows(frame, body[mine], contact, mine, 1, J);
+    set(mine, 1);
     const int other = (mine + offset) % bodies;
-    if (other != mine) SetContactRows(frame, body[other], contact, other, -1, J);
+    if (other != mine) set(other, -1);
   }
   return J;
 }

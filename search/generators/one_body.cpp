@@ -28,12 +28,7 @@ int FillOneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows
   for (int contact = 0; contact < rows / 2; ++contact) {
     const Scalar x = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
     const Scalar y = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
-    int p = static_cast<int>(choices.Integer(-64, 64));
-    const int q = static_cast<int>(choices.Integer(-64, 64));
-    if (p == 0 && q == 0) p = 1;
-    const Scalar length = Scalar(p * p + q * q);
-    const Vector2<Scalar> normal =
-        MakeVector2<Scalar>(Scalar(Scalar(2 * p * q) / length), Scalar(Scalar(p * p - q * q) / length));
+    const Vector2<Scalar> normal = DrawNormal<Scalar>(64, choices);
     SetSceneRows<Scalar>(normal, MakeVector2<Scalar>(x, y), contact, 0, 1, J);
   }
   SetFromBodies(J, 1, body, problem);
