@@ -117,11 +117,12 @@ void Set(const FieldOf<Campaign>& field, const Given& given, Campaign& campaign)
 }
 
 // A solver that says nothing costs no more than the search would.
-SolverPatience PatienceOf(const SearchVerb& verb) {
+SolverProcess SolverOf(const SearchVerb& verb) {
   constexpr double kLeast = 5;
   const double budget = 60 * verb.minutes.value_or(kDefaultMinutes);
-  return {.stopped = [&interrupted = Interruption()] { return interrupted.load(); },
-          .greeting = std::min(kGreetingSeconds, std::max(kLeast, budget))};
+  return SolverProcess(
+      SolverCommand(verb.solver), [&interrupted = Interruption()] { return interrupted.load(); },
+      std::min(kGreetingSeconds, std::max(kLeast, budget)));
 }
 
 Campaign CampaignOf(const SearchVerb& verb) {
@@ -165,7 +166,7 @@ Campaign CampaignOf(const SearchVerb& verb) {
     for (Candidate& parent : ParentsFrom(source, campaign)) campaign.parents.push_back(std::move(parent));
   }
   if (!verb.solver.empty()) {
-    const SolverProcess solver(SolverCommand(verb.solver), PatienceOf(verb));
+    const SolverProcess solver = SolverOf(verb);
     campaign.solver = solver.about();
     campaign.no_leaks |= solver.KeepsMemory();
   }

@@ -61,7 +61,7 @@ constexpr Objective Exactly(const Text& text, F) {
           false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
 }
 
-// Of a solver under test, whose process under_test/optimized_solver_unit.h asks.
+// Of a solver under test, whose process under_test/solver_unit.h asks.
 constexpr Objective OfSolver(const Text& text) {
   Objective objective = {text.name, text.help, text.unit, text.sign};
   objective.of_solver = true;

@@ -10,6 +10,7 @@
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/adversary/parents.h"
+#include "search/units/regenerate.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"
 
@@ -34,24 +35,6 @@ void KeepBest(std::vector<Elite>& elites, std::size_t most) {
 double Number(const JsonPlace& place) {
   if (!place.json().is_number()) place.Refuse("a number");
   return place.json().get<double>();
-}
-
-// A loop as a finding; its index is the place among the loops of its unit.
-Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
-                  const Assessed& assessed, std::string signature, const ExactRun& run) {
-  const std::string generator(Row(task.generator).name);
-  Finding finding;
-  finding.signature = std::move(signature);
-  finding.kind = Name(run.verdict.outcome);
-  finding.unit = unit;
-  finding.index = index;
-  finding.generator = generator;
-  finding.contacts = task.contacts;
-  finding.policy = PolicyName(campaign.policies.front());
-  finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
-  finding.problem =
-      JsonText(ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))));
-  return finding;
 }
 
 // What an optimizer is given: what was found and what was asked for, of its size, then what is smaller, made as
@@ -166,9 +149,14 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
     const bool first = ++result.record.signatures[signature] == 1;
     const bool room = static_cast<std::int64_t>(result.candidates.size()) < campaign.representatives_per_unit;
-    if (first && room)
-      result.candidates.push_back(FindingOf(campaign, task, unit, index, assessed, std::move(signature), run));
-    ++index;
+    if (first && room) {
+      Finding& finding = result.candidates.emplace_back(FindingAt(campaign, task, unit, index));
+      finding.signature = std::move(signature);
+      finding.kind = finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
+      const std::string name = fmt::format("{}-{}-{}", finding.generator, unit, index);
+      finding.problem = JsonText(ToJson(FileOf(assessed.candidate, name)));
+    }
+    ++index;  // its place among the loops of its unit
   }
   return result;
 }
