@@ -5,6 +5,7 @@
 #include "cli/narration/page_of_run.h"
 #include "cli/version.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
 

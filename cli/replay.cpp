@@ -48,7 +48,6 @@ struct ReplayOptions : Wanted {
   bool fractions = false;  // for people, in full
   std::string record, html, svg;
 
-  PathOptions path() const { return {method, policy, request.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
 
@@ -118,13 +117,14 @@ void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution&
 }
 
 // The period of a loop, again and again; all of another run.
-void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
+void WriteMovingPicture(const ReplayOptions& o, const Request& request, const ReplayFile& replay,
+                        const Solution& solution) {
   constexpr std::size_t kMostStills = 200;
   constexpr double kSeconds = 1.1;
   if (replay.picture.is_null())
     throw InputError(o.file, "--svg", "a problem without its scene",
                      "a scene; --html makes a page of any problem");
-  const FollowedRun run = Followed(o.path(), replay.file, solution);
+  const FollowedRun run = Followed(request, replay.file, solution);
   const bool loops = run.replay["outcome"] == "cycle";
   const std::int64_t start = loops ? run.replay["start"].get<std::int64_t>() : 0;
   std::vector<Still> stills;
@@ -155,10 +155,10 @@ int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(file.problem, request, solution.outcome());
   if (!o.html.empty()) WritePage(o, replay, solution, proved);
-  if (!o.svg.empty()) WriteMovingPicture(o, replay, solution);
+  if (!o.svg.empty()) WriteMovingPicture(o, request, replay, solution);
   if (o.html == "-" || o.svg == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
-    Json json = ReplayToJson(o.path(), file, solution, std::move(narration), o.step);
+    Json json = ReplayToJson(request, file, solution, std::move(narration), o.step);
     if (proved) json["over_intervals"] = EndToJson(*proved);
     json["expected"] = expected;
     std::cout << JsonText(json) << "\n";

@@ -403,7 +403,7 @@ py::object ReplayProblem(PythonProblem& problem, const std::string& policy, cons
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
     const Solution solution = SolveAsked(problem.problem(), request, kSource);
-    Json json = ReplayToJson({method, policy, wanted.request.limits}, problem.file(), solution,
+    Json json = ReplayToJson(request, problem.file(), solution,
                              Narrate(method, problem.file(), solution, {.vectors = true}), true);
     const auto proved = OverIntervals(problem.problem(), request, solution.outcome());
     if (proved) json["over_intervals"] = EndToJson(*proved);

@@ -27,6 +27,7 @@
 #include "cli/narration/surveyed.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/grouped.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/loop_sentence.h"

@@ -20,8 +20,4 @@ std::string OverIntervalsText(const InexactAnswer& answer) {
   return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(answer));
 }
 
-void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run) {
-  run.end += "; " + OverIntervalsText(answer);
-}
-
 }  // namespace stiction

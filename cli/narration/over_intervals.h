@@ -8,7 +8,6 @@
 #include <string>
 
 #include "certify/exact/solve.h"
-#include "cli/narration/replay_page.h"
 
 namespace stiction {
 
@@ -19,9 +18,6 @@ std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Re
 
 // "over intervals, proved: cycle: ..."
 std::string OverIntervalsText(const InexactAnswer& answer);
-
-// Adds to how it ended what intervals say of it.
-void TellOverIntervals(const InexactAnswer& answer, FollowedRun& run);
 
 }  // namespace stiction
 
