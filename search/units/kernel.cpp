@@ -290,6 +290,14 @@ std::unique_ptr<Kernel> MakePlanar(const Campaign& campaign, const UnitSolvers& 
   return std::make_unique<PlanarKernel<kRows>>(campaign, solvers);
 }
 
+// Null unless there are 1 to kMaxContacts.
+template <int Contacts = 1>
+std::unique_ptr<Kernel> MakePlanar(int contacts, const Campaign& campaign, const UnitSolvers& solvers) {
+  if (contacts == Contacts) return MakePlanar<Contacts>(campaign, solvers);
+  if constexpr (Contacts < kMaxContacts) return MakePlanar<Contacts + 1>(contacts, campaign, solvers);
+  return nullptr;
+}
+
 }  // namespace
 
 std::unique_ptr<Kernel> MakeKernel(const Campaign& campaign, const UnitSolvers& solvers, const Task& task) {
@@ -297,27 +305,10 @@ std::unique_ptr<Kernel> MakeKernel(const Campaign& campaign, const UnitSolvers& 
   if (campaign.arithmetic != Arithmetic::kDouble) return std::make_unique<CertifiedKernel>(campaign);
   if (Row(task.generator).HasOtherKinds())
     return std::make_unique<PlanarKernel<Eigen::Dynamic>>(campaign, solvers);
-  switch (task.contacts) {
-    case 1:
-      return MakePlanar<1>(campaign, solvers);
-    case 2:
-      return MakePlanar<2>(campaign, solvers);
-    case 3:
-      return MakePlanar<3>(campaign, solvers);
-    case 4:
-      return MakePlanar<4>(campaign, solvers);
-    case 5:
-      return MakePlanar<5>(campaign, solvers);
-    case 6:
-      return MakePlanar<6>(campaign, solvers);
-    case 7:
-      return MakePlanar<7>(campaign, solvers);
-    case 8:
-      return MakePlanar<8>(campaign, solvers);
-    default:
-      throw InputError(
-          fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
-  }
+  auto kernel = MakePlanar(task.contacts, campaign, solvers);
+  if (kernel == nullptr)
+    throw InputError(fmt::format("campaign: found {} contacts, expected 1 to {}", task.contacts, kMaxContacts));
+  return kernel;
 }
 
 }  // namespace stiction

@@ -207,11 +207,14 @@ class Minimizer {
     return progress;
   }
 
+  std::array<ExactProblem, 3> InSeveralUnits() const {
+    return {Stretched(result_.problem, -1), Equilibrated(result_.problem), result_.problem};
+  }
+
   // Small integers at once, in several units and with a ridge that makes A definite. The first size that works
   // is taken.
   bool RoundAll() {
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     const std::array<Ridge, 6> ridges = {
         {{0, 0}, {1, 0}, {0, Rational(1, 64)}, {0, Rational(1, 16)}, {0, Rational(1, 4)}, {1, Rational(1, 4)}}};
     for (const std::int64_t size : kRoundSizes) {
@@ -227,8 +230,7 @@ class Minimizer {
   }
 
   bool RoundFactors() {
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     for (int bits = 1; bits <= 24; ++bits) {
       for (const ExactProblem& base : bases) {
         if (Try(WithRoundedFactors(base, bits))) return true;
@@ -252,16 +254,9 @@ class Minimizer {
 
   // Entry (i, j) of A with its mirror; j = rows stands for b_i.
   bool SimplifyEntry(int i, int j) {
-    const bool of_b = j == result_.problem.rows();
-    const Rational value = of_b ? result_.problem.b[i] : result_.problem.A(i, j);
-    for (const Rational& number : SimplerNumbers(value, !of_b && i == j)) {
+    for (const Rational& number : SimplerNumbers(EntryAt(result_.problem, {i, j}), /*positive=*/i == j)) {
       ExactProblem candidate = result_.problem;
-      if (of_b) {
-        candidate.b[i] = number;
-      } else {
-        candidate.A(i, j) = number;
-        candidate.A(j, i) = number;
-      }
+      SetEntryAt(candidate, {i, j}, number);
       if (Try(candidate)) return true;
     }
     return false;
@@ -272,8 +267,7 @@ class Minimizer {
   // again.
   bool RoundAtRandom() {
     if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     for (int size = 2; size <= 12; ++size) {
       for (int attempt = 0; attempt < kAttemptsOfSize && !Cancelled(); ++attempt) {
         Choices lots(ProblemSeed(1994, static_cast<std::uint64_t>(size), static_cast<std::uint64_t>(attempt)));
