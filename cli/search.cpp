@@ -502,8 +502,7 @@ int RunProblem(const ProblemVerb& o) {
   if (stored == o.exponential.has_value() || (stored ? !complete || o.scaled : o.best || o.index.has_value())) {
     throw InputError(
         "problem: expected either STORE UNIT INDEX, or STORE SIGNATURE, or STORE --best, or --exponential N "
-        "and "
-        "perhaps --scaled");
+        "and perhaps --scaled");
   }
   if (o.scene && !is_finding) throw InputError("problem: found --scene, expected it with STORE SIGNATURE");
   const ProblemFile file = o.scene      ? SceneFileOf(o)
@@ -689,23 +688,19 @@ const ListedVerb kSearchVerb("Find", 10, [](CommandLine& program) {
       .Range(0, 100)
       .Details(
           "By default 20, with an objective 5; 0 finishes none, 100 leaves none unfinished. Of a kind and "
-          "number of "
-          "contacts at most 100 are finished. After the last unit of --problems half a minute of each thread "
-          "is used in any case; what waits then is left to --finish");
+          "number of contacts at most 100 are finished. After the last unit of --problems half a minute of "
+          "each thread is used in any case; what waits then is left to --finish");
   verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
   verb.Option("--solver", o.solver,
               "test this solver in place of the published algorithm: NAME.so, or a program")
       .Details(
           "It is given the problems in a process of its own, and its forces are judged by the conditions of "
-          "its "
-          "law: search/under_test/README.md. With --finish, the solver that the store tests");
+          "its law: search/under_test/README.md. With --finish, the solver that the store tests");
   verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
       .Details(
           "The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, "
-          "STICTION_GRAVE, "
-          "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
-          "fails, "
-          "or takes a minute, is reported");
+          "STICTION_GRAVE, STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and "
+          "STICTION_STORE. One that fails, or takes a minute, is reported");
   verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())

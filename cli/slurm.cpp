@@ -80,14 +80,11 @@ const ListedVerb kSlurmVerb("Find", 70, [](CommandLine& program) {
       program.Add("slurm", "Write a campaign as a job array and a job that merges its shards", RunSlurm);
   verb.footer =
       "Writes task.sh, merge.sh and submit.sh, which submits both, and campaign.json; options of submit.sh "
-      "(--partition, --account, ...) are sbatch's, of tasks and merge. Tasks that are killed are queued "
-      "again; the merge has what is missing run again, finishes all findings and writes merged.store and "
-      "report/. A thousand tasks make an array. "
-      "Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then FOLDER/merge.sh. How many shards there are "
-      "changes "
-      "nothing, unless the campaign has an objective: a shard learns from its own units. STICTION names "
-      "another "
-      "program.";
+      "(--partition, --account, ...) are sbatch's, of tasks and merge. Tasks that are killed are queued again; "
+      "the merge has what is missing run again, finishes all findings and writes merged.store and report/. A "
+      "thousand tasks make an array. Without Slurm: seq 0 LAST | parallel FOLDER/task.sh; then "
+      "FOLDER/merge.sh. How many shards there are changes nothing, unless the campaign has an objective: a "
+      "shard learns from its own units. STICTION names another program.";
   verb.Positional("CAMPAIGN", o.campaign, "stiction-campaign file").Required();
   verb.Option("--shards", o.shards, "tasks; each should take minutes").Required().Range(1, 100000);
   verb.Option("-n,--problems", o.problems, "size of the whole campaign, rounded up to whole units")

@@ -361,10 +361,8 @@ Generator MakeSteps() {
       .name = "steps",
       .distribution =
           "One step of an engine: a stack, a wall, a pile, a grasp or bodies anyhow, masses up to 10^4 apart, "
-          "after 0 "
-          "to 11 steps of 1/30 to 1/240 s with 1 to 16 sweeps and a Baumgarte term, all in floats; J, inverse "
-          "masses "
-          "and velocities u as floats, A = J W J' and b = J u exactly.",
+          "after 0 to 11 steps of 1/30 to 1/240 s with 1 to 16 sweeps and a Baumgarte term, all in floats; J, "
+          "inverse masses and velocities u as floats, A = J W J' and b = J u exactly.",
       .exact_in_double = false,
   };
   return GeneratorOf<kRow>(
