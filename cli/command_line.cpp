@@ -28,9 +28,6 @@ std::multimap<std::pair<std::string_view, int>, AddVerbTo>& ListedVerbs() {
   return verbs;
 }
 
-// "--json" of "-j,--json".
-std::string LongName(const OptionRow& row) { return row.name.substr(row.name.find(',') + 1); }  // npos + 1 is 0
-
 void AddRow(CLI::App& app, const OptionRow& row) {
   if (row.kind == RowKind::kFlag) {
     bool* const field = std::get<bool*>(row.field);
@@ -41,7 +38,7 @@ void AddRow(CLI::App& app, const OptionRow& row) {
   }
   CLI::Option* option = app.add_option(row.name, [&row](const CLI::results_t& words) {
     const std::string error = Take(row, words);
-    if (!error.empty()) throw CLI::ValidationError(LongName(row), error);
+    if (!error.empty()) throw CLI::ValidationError(row.Spellings().back(), error);
     return true;
   });
   option->required(row.required);
@@ -69,7 +66,7 @@ std::string Suggestion(const std::string& word, const std::vector<std::string>& 
 std::vector<std::string> OptionNames(const Verb& verb) {
   std::vector<std::string> names = {"--help"};
   for (const OptionRow& row : verb.rows) {
-    if (row.kind != RowKind::kPositional) names.push_back(LongName(row));
+    if (row.kind != RowKind::kPositional) names.push_back(row.Spellings().back());
   }
   return names;
 }

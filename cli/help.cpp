@@ -48,11 +48,6 @@ std::string Paragraphs(const std::string& text) {
   return lines;
 }
 
-std::string WithCommaSpace(const std::string& name) {
-  const std::size_t comma = name.find(',');
-  return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
-}
-
 std::string RangeText(const OptionRow& row) {
   if (row.min == -std::numeric_limits<double>::infinity()) return "";
   if (row.max == kMostInteger) return fmt::format("{:g} or more", row.min);
@@ -114,7 +109,7 @@ std::size_t Distance(std::string_view left, std::string_view right) {
 
 std::string TermOf(const OptionRow& row) {
   if (row.kind == RowKind::kPositional) return row.name + (row.IsRepeated() ? " ..." : "");
-  std::string term = WithCommaSpace(row.name);
+  std::string term = fmt::format("{}", fmt::join(row.Spellings(), ", "));
   if (row.kind == RowKind::kOption) term += fmt::format(" {}", row.TypeName());
   return term + (row.IsRepeated() ? " ..." : "");
 }

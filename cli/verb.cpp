@@ -123,6 +123,12 @@ bool OptionRow::IsRepeated() const {
          std::holds_alternative<std::vector<std::string>*>(field);
 }
 
+std::vector<std::string> OptionRow::Spellings() const {
+  const std::size_t comma = name.find(',');
+  if (comma == name.npos) return {name};
+  return {name.substr(0, comma), name.substr(comma + 1)};
+}
+
 std::string_view OptionRow::TypeName() const {
   return std::visit(
       [](const auto* bound) -> std::string_view {
