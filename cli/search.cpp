@@ -14,7 +14,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <set>
 #include <thread>
 
 #include "cli/command_line.h"
@@ -341,26 +340,18 @@ struct StatusVerb {
   bool json = false;
 };
 
-// Signatures met so far, and how many problems were run.
-struct Look {
-  std::int64_t problems = 0;
-  std::set<std::string> signatures;
-};
-
-Look LookAt(const Store& store) {
-  Look look;
-  const Record total = store.Total();
-  look.problems = CountAll(total).runs;
-  for (const auto& [key, tally] : total.under_test) look.problems += tally.problems;
-  for (const auto& [signature, count] : total.signatures) look.signatures.insert(signature);
-  return look;
+// How many problems were run.
+std::int64_t RunsOf(const Record& record) {
+  std::int64_t runs = CountAll(record).runs;
+  for (const auto& [key, tally] : record.under_test) runs += tally.problems;
+  return runs;
 }
 
 // Names at most `most` of the new groups.
-std::string Changes(const Look& before, const Look& now, std::int64_t most) {
+std::string Changes(const Record& before, const Record& now, std::int64_t most) {
   std::string names;
   std::int64_t groups = 0;
-  for (const std::string& signature : now.signatures) {
+  for (const auto& [signature, count] : now.signatures) {
     if (before.signatures.contains(signature) || groups++ >= most) continue;
     const std::string known(KnownAs(signature));
     names +=
@@ -368,7 +359,7 @@ std::string Changes(const Look& before, const Look& now, std::int64_t most) {
   }
   if (groups > most) names += ", ...";
   return fmt::format(
-      "{}, {} more; {}, {} new{}", Counted(now.problems, "run"), Grouped(now.problems - before.problems),
+      "{}, {} more; {}, {} new{}", Counted(RunsOf(now), "run"), Grouped(RunsOf(now) - RunsOf(before)),
       Counted(static_cast<std::int64_t>(now.signatures.size()), "group"), Grouped(groups), names);
 }
 
@@ -393,16 +384,16 @@ constexpr std::int64_t kMostNewOnScreen = 4;  // groups that are named: the summ
 void Watch(const std::string& file) {
   const std::atomic<bool>& interrupted = Interruption();
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::optional<Look> before;
+  std::optional<Record> before;
   while (!interrupted && StoreLock::IsHeld(file)) {
     if (std::filesystem::exists(file)) {  // a search makes it in its first moment
       const Store store = OpenSound(file);
-      const Look now = LookAt(store);
+      const Record now = store.Total();
       const std::int64_t most = terminal ? kMostNewOnScreen : std::numeric_limits<std::int64_t>::max();
       const std::string line = fmt::format("{} {}", TimeOfDay(), Changes(before.value_or(now), now, most));
       if (terminal) {
         Redraw(Folded(line, TextWidth(STDERR_FILENO)), SummaryOf(store, file));
-      } else if (!before || now.problems != before->problems) {
+      } else if (!before || RunsOf(now) != RunsOf(*before)) {
         fmt::print(std::cerr, "{}\n", line);
       }
       before = now;

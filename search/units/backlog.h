@@ -28,6 +28,8 @@ class Backlog {
   struct Entry {
     int tries = 0;  // that ran out of time
     Finding finding;
+
+    bool operator<(const Entry& other) const;
   };
 
   // A representative, finished or not. One of the same signature before gives way.
@@ -40,9 +42,6 @@ class Backlog {
   std::int64_t left_out() const { return static_cast<std::int64_t>(left_out_.size()); }
 
  private:
-  struct Order {
-    bool operator()(const Entry& left, const Entry& right) const;
-  };
   using Class = std::pair<std::string, int>;  // kind, contacts
   struct Admitted {
     Class of;
@@ -51,7 +50,7 @@ class Backlog {
   void Forget(const std::string& signature);
 
   std::optional<std::int64_t> most_;
-  std::set<Entry, Order> waiting_;
+  std::set<Entry> waiting_;
   std::map<std::string, Admitted> admitted_;  // finished, waiting or in work, by signature
   std::map<Class, std::int64_t> sizes_;       // of what is admitted
   std::set<std::string> left_out_;

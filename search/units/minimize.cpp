@@ -115,8 +115,8 @@ class Minimizer {
     while (progress && !Cancelled()) {
       progress = Try(WithoutBilateral(result_.problem));
       progress |= DropContacts();
-      progress |= DropFriction();
-      progress |= StretchTangents();
+      progress |= ChangeContacts(WithoutFriction);
+      progress |= ChangeContacts(Stretched);
       progress |= RoundAll();
       progress |= RoundFactors();
       progress |= DivideCommonFactors();
@@ -192,18 +192,11 @@ class Minimizer {
     return progress;
   }
 
-  bool DropFriction() {
-    bool progress = false;
-    for (int contact = 0; contact < ContactCount(); ++contact) {
-      progress |= Try(WithoutFriction(result_.problem, contact));
-    }
-    return progress;
-  }
-
-  bool StretchTangents() {
+  template <class Change>
+  bool ChangeContacts(Change change) {
     bool progress = false;
     for (int contact = 0; contact < ContactCount(); ++contact)
-      progress |= Try(Stretched(result_.problem, contact));
+      progress |= Try(change(result_.problem, contact));
     return progress;
   }
 
@@ -244,19 +237,27 @@ class Minimizer {
     return Try(WithoutCommonFactors(result_.problem).second) || progress;
   }
 
+  // Entries (i, j) of A with their mirrors; j = rows stands for b_i.
+  std::vector<std::pair<int, int>> Places() const {
+    const int rows = result_.problem.rows();
+    std::vector<std::pair<int, int>> places;
+    for (int i = 0; i < rows; ++i) {
+      for (int j = i; j <= rows; ++j) places.emplace_back(i, j);
+    }
+    return places;
+  }
+
   bool SimplifyEntries() {
     bool progress = false;
-    for (int i = 0; i < result_.problem.rows(); ++i) {
-      for (int j = i; j <= result_.problem.rows(); ++j) progress |= SimplifyEntry(i, j);
-    }
+    for (const auto& place : Places()) progress |= SimplifyEntry(place);
     return progress;
   }
 
-  // Entry (i, j) of A with its mirror; j = rows stands for b_i.
-  bool SimplifyEntry(int i, int j) {
-    for (const Rational& number : SimplerNumbers(EntryAt(result_.problem, {i, j}), /*positive=*/i == j)) {
+  bool SimplifyEntry(const std::pair<int, int>& place) {
+    const bool positive = place.first == place.second;
+    for (const Rational& number : SimplerNumbers(EntryAt(result_.problem, place), positive)) {
       ExactProblem candidate = result_.problem;
-      SetEntryAt(candidate, {i, j}, number);
+      SetEntryAt(candidate, place, number);
       if (Try(candidate)) return true;
     }
     return false;
@@ -280,12 +281,8 @@ class Minimizer {
 
   // Two entries at once, each one more, one less, zero, or turned.
   bool ChangePairs() {
-    const int rows = result_.problem.rows();
-    if (rows > kMostRowsOfGlobalPasses) return false;
-    std::vector<std::pair<int, int>> places;  // as in SimplifyEntry
-    for (int i = 0; i < rows; ++i) {
-      for (int j = i; j <= rows; ++j) places.emplace_back(i, j);
-    }
+    if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
+    const std::vector<std::pair<int, int>> places = Places();
     for (std::size_t p = 0; p < places.size(); ++p) {
       for (std::size_t q = 0; q < p && !Cancelled(); ++q) {
         for (const Rational& first : Neighbours(EntryAt(result_.problem, places[p]))) {

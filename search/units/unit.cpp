@@ -29,28 +29,13 @@ namespace {
 
 constexpr double kWrongAnswer = 1e-6;  // lenient error (solver/problem/lenient.h)
 
-// Of a unit: the first problem that is audited, and from there on one in `audit_every`. Where it stands is
+// The first problem of a unit that is audited; from there on it is one in `audit_every`. Where it stands is
 // drawn, so that units smaller than that are audited no more often than large ones.
-class Audits {
- public:
-  Audits(const Campaign& campaign, std::int64_t unit)
-      : every_(campaign.audit_every),
-        until_(
-            static_cast<std::int64_t>(Mix(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), kNone)) %
-                                      static_cast<std::uint64_t>(every_))) {}
-
-  // Of the next problem.
-  bool Next() {
-    if (until_-- > 0) return false;
-    until_ = every_ - 1;
-    return true;
-  }
-
- private:
-  static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();  // the index of no problem
-
-  std::int64_t every_, until_;
-};
+std::int64_t FirstAudit(const Campaign& campaign, std::int64_t unit) {
+  constexpr auto kNone = std::numeric_limits<std::uint64_t>::max();  // the index of no problem
+  return static_cast<std::int64_t>(Mix(ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), kNone)) %
+                                   static_cast<std::uint64_t>(campaign.audit_every));
+}
 
 // draw(choices) for problem after problem of a unit, then attempt(index, policy, audit) under every policy.
 template <class Draw, class Attempt>
@@ -58,12 +43,12 @@ void TryAll(const Campaign& campaign, std::int64_t unit, const Task& task, WorkM
             Attempt attempt) {
   SampledDraws draws;
   const std::int64_t problems = UnitProblems(campaign, task, unit);
-  Audits audits(campaign, unit);
+  const std::int64_t first_audit = FirstAudit(campaign, unit);
   for (std::int64_t index = 0; index < problems; ++index) {
     Choices choices(
         ProblemSeed(campaign.seed, static_cast<std::uint64_t>(unit), static_cast<std::uint64_t>(index)));
     draws(index, [&] { draw(choices); });
-    const bool audit = audits.Next();
+    const bool audit = index % campaign.audit_every == first_audit;
     for (std::size_t policy = 0; policy < campaign.policies.size(); ++policy) attempt(index, policy, audit);
   }
   meter.Attribute(&ProcessorTime::generation, draws.Nanoseconds(problems));
@@ -190,14 +175,14 @@ class BatchedKernel final : public PlanarKernel<Rows> {
 
   void Run(std::int64_t unit, const Task& task, Collector& collector, Examiner& examiner) override {
     const std::int64_t problems = UnitProblems(campaign_, task, unit);
-    Audits audits(campaign_, unit);
+    const std::int64_t first_audit = FirstAudit(campaign_, unit);
     for (std::int64_t first = 0; first < problems; first += kBlockProblems) {
       const int count = static_cast<int>(std::min<std::int64_t>(kBlockProblems, problems - first));
       DrawBlock(unit, task, first, count, collector);
       batch_.Run(count);
       for (int i = 0; i < count; ++i) {
         const std::int64_t index = first + i;
-        const bool audit = audits.Next();
+        const bool audit = index % campaign_.audit_every == first_audit;
         drawn_ = batch_.DrawnOf(i);
         if (batch_.IsLeft(i)) {
           batch_.Get(i, problem_);
