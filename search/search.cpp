@@ -21,7 +21,6 @@
 #include "search/under_test/solver_unit.h"
 #include "search/units/backlog.h"
 #include "search/units/finish.h"
-#include "search/units/finishing_time.h"
 #include "search/units/unit.h"
 #include "search/units/work_meter.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "search/generators/generator.h"
-#include "search/generators/integer_problem.h"
+#include "search/generators/drawing.h"
 
 namespace stiction::generators {
 namespace {
