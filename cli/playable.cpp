@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/playable.h"
 
-#include "cli/narration/over_intervals.h"
 #include "cli/narration/page_of_run.h"
+#include "cli/narration/published_ends.h"
 #include "cli/version.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"

@@ -5,7 +5,7 @@
 
 #include "certify/exact/exact.h"
 #include "cli/narration/followed.h"
-#include "cli/narration/over_intervals.h"
+#include "cli/narration/published_ends.h"
 
 namespace stiction {
 namespace {
