@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "search/generators/generator.h"
 #include "search/generators/drawing.h"
+#include "search/generators/generator.h"
 
 namespace stiction::generators {
 namespace {
