@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bodies: rigid bodies, joined at points.
+// bodies: rigid bodies, joined at points. one-body: one of any distribution of mass.
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,8 @@
 
 namespace stiction::generators {
 namespace {
+
+// ---- bodies ----------------------------------------------------------------------------------
 
 template <class Scalar>
 Scalar DrawPositive(Choices& choices) {
@@ -59,8 +61,7 @@ BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<B
   return J;
 }
 
-// Not modelled: shapes. Bodies may overlap each other and
-// the world, and lie on either side of a contact.
+// Not modelled: shapes. Bodies may overlap each other and the world, and lie on either side of a contact.
 template <class Scalar, int Rows>
 int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
@@ -71,6 +72,34 @@ int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>
   const BodyJacobian<Scalar, Rows> J = DrawContacts<Scalar, Rows>(rows, bodies, body, choices);
   SetFromBodies(J, bodies, body, problem);
   return 3 * bodies;
+}
+
+// ---- one-body --------------------------------------------------------------------------------
+
+// The centre of mass is the origin; points in millimetres.
+template <class Scalar, int Rows>
+int FillOneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
+  std::array<Body<Scalar>, kMaxBodies> body;
+  const int numerator = static_cast<int>(choices.Integer(1, 1000));
+  const int denominator = static_cast<int>(choices.Integer(1, 1'000'000'000));
+  const Scalar inertia = Scalar(numerator) / Scalar(denominator);
+  body[0].inverse_mass = {Scalar(1), Scalar(1), Scalar(Scalar(1) / inertia)};
+  body[0].free_acceleration = {Scalar(0), Scalar(-10), Scalar(0)};
+  for (int k = 0; applied && k < 3; ++k) {
+    const Scalar load = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(100);
+    body[0].free_acceleration[k] += load * body[0].inverse_mass[k];
+  }
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, 1);
+  for (int contact = 0; contact < rows / 2; ++contact) {
+    const Scalar x = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    const Scalar y = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    const Vector2<Scalar> normal = DrawNormal<Scalar>(64, choices);
+    SetSceneRows<Scalar>(normal, MakeVector2<Scalar>(x, y), contact, 0, 1, J);
+  }
+  SetFromBodies(J, 1, body, problem);
+  return 3;
 }
 
 }  // namespace
@@ -87,6 +116,22 @@ Generator MakeBodies() {
   };
   return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillBodies(given.gravity_only, choices, problem);
+  });
+}
+
+Generator MakeOneBody() {
+  static constexpr GeneratorRow kRow = {
+      .name = "one-body",
+      .distribution =
+          "One planar rigid body at rest and the world, joined at n points: as bodies, with "
+          "numbers of four digits, and any distribution of mass: mass 1, inertia p/q with p in "
+          "1..1000 and q in 1..10^9, so that its centre may be far from the points beside its "
+          "radius of inertia. Not part of a campaign that names no generators.",
+      .exact_in_double = false,
+      .has_gravity = true,
+  };
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
+    return FillOneBody(given.gravity_only, choices, problem);
   });
 }
 
