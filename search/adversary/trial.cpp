@@ -136,7 +136,7 @@ double GapOfScan(const ExactProblem& problem, const Pivot<Rational>& end) {
   const double largest_f = LargestOf<Rational>(end.f), largest_a = LargestOf<Rational>(end.a);
   double gap = 1;
   int k = 0;
-  ForEachQuantity(problem, end.f, end.a, end.f, end.a, [&](const Rational& value, const Rational& rate) {
+  ForEachQuantity(problem, end.f, end.a, end.f, end.a, [&](const Rational& value, const Rational&) {
     const bool of_acceleration = k % 5 == 1 || k % 5 == 2;
     ++k;
     const double scale = of_acceleration ? largest_a : largest_f;
