@@ -31,7 +31,7 @@
 #include "corpus/order_statistics.h"
 #include "corpus/record/work.h"
 #include "corpus/stopwatch.h"
-#include "search/generators/integer_problem.h"
+#include "search/generators/drawing.h"
 #include "search/lanes/batch.h"
 #include "search/units/unit.h"
 #include "solver/problem/lenient.h"

@@ -44,8 +44,7 @@ inline constexpr std::array kSuites = {
     Suite{"peers", "stiction beside other packages, by the program stiction-peers",
           "of each number of contacts (default 400)", kMostOfAnySuite,
           "full half planar planar-half space space-half structure growth-frictionless growth-planar "
-          "growth-walls "
-          "growth-walls-in-space"},
+          "growth-walls growth-walls-in-space"},
     Suite{"random", "of it, random problems by the number of contacts",
           "of each number of contacts (default 400)", kMostOfAnySuite,
           "full half planar planar-half space space-half"},

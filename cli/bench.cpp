@@ -38,8 +38,7 @@ const ListedVerb kBenchVerb("Solve", 50, [](CommandLine& program) {
   auto [verb, o] = program.Add("bench", kBenchPurpose, BecomeBench);
   verb.footer =
       "Its words are read by the program stiction-bench, which stands beside this one. Questions that are "
-      "asked "
-      "once are studies in Python, in the folder bench/studies of the sources: ./run bench --suite NAME.";
+      "asked once are studies in Python, in the folder bench/studies of the sources: ./run bench --suite NAME.";
   verb.rest = &o.words;
   AddBenchWords(verb, o.meant);
 });

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "corpus/named_rows.h"
+
 namespace stiction {
 namespace {
 
@@ -12,12 +14,6 @@ std::vector<AllowedValue> SuiteChoices() {
   std::vector<AllowedValue> choices;
   for (const Suite& suite : kSuites) choices.push_back({std::string(suite.name), std::string(suite.help)});
   return choices;
-}
-
-std::vector<std::string> GeneratorNames() {
-  std::vector<std::string> names;
-  for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
-  return names;
 }
 
 std::string MostContacts() {
@@ -51,7 +47,7 @@ void AddBenchWords(Verb& verb, BenchOptions& o) {
       .Details("peers, random, structure: 0.06 seconds each for a row and size");
   verb.Option("--seed", o.seed, "of the problems")
       .Range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max()));
-  verb.Option("-g,--generator", o.generator, "search: this one alone").OneOf(GeneratorNames());
+  verb.Option("-g,--generator", o.generator, "search: this one alone").OneOf(NamesOf(Generators()));
   verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
   verb.Option("--families", o.families, "structure, engines, problems, silent, gate: these alone");
   verb.Option("-t,--threads", o.threads,

@@ -14,6 +14,7 @@
 #include "cli/help.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
+#include "corpus/named_rows.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -27,9 +28,6 @@ std::multimap<std::pair<std::string_view, int>, AddVerbTo>& ListedVerbs() {
   return verbs;
 }
 
-// "--json" of "-j,--json".
-std::string LongName(const OptionRow& row) { return row.name.substr(row.name.find(',') + 1); }  // npos + 1 is 0
-
 void AddRow(CLI::App& app, const OptionRow& row) {
   if (row.kind == RowKind::kFlag) {
     bool* const field = std::get<bool*>(row.field);
@@ -40,7 +38,7 @@ void AddRow(CLI::App& app, const OptionRow& row) {
   }
   CLI::Option* option = app.add_option(row.name, [&row](const CLI::results_t& words) {
     const std::string error = Take(row, words);
-    if (!error.empty()) throw CLI::ValidationError(LongName(row), error);
+    if (!error.empty()) throw CLI::ValidationError(row.Spellings().back(), error);
     return true;
   });
   option->required(row.required);
@@ -68,17 +66,14 @@ std::string Suggestion(const std::string& word, const std::vector<std::string>& 
 std::vector<std::string> OptionNames(const Verb& verb) {
   std::vector<std::string> names = {"--help"};
   for (const OptionRow& row : verb.rows) {
-    if (row.kind != RowKind::kPositional) names.push_back(LongName(row));
+    if (row.kind != RowKind::kPositional) names.push_back(row.Spellings().back());
   }
   return names;
 }
 
 void RefuseUnknownVerb(const CommandLine& program, const std::string& word) {
-  std::vector<std::string> names;
-  for (const Verb& verb : program.verbs) {
-    if (verb.name == word) return;
-    names.push_back(verb.name);
-  }
+  if (RowNamed(program.verbs, word) != nullptr) return;
+  std::vector<std::string> names = NamesOf(program.verbs);
   names.insert(names.end(), {"help", "--help", "--version"});
   const std::string suggestion = Suggestion(word, names);
   throw InputError(fmt::format("found '{}', expected a verb{}", word,
@@ -114,10 +109,7 @@ InputError Refused(const CommandLine& program, const CLI::ParseError& error, con
     text = fmt::format("{}: found without {}, expected it too", text.substr(0, text.find(' ')),
                        text.substr(text.rfind(' ') + 1));
   }
-  for (const Verb& known : program.verbs) {
-    if (known.name == verb) return InputError(fmt::format("{}: {}", verb, text));
-  }
-  return InputError(text);
+  return RowNamed(program.verbs, verb) == nullptr ? InputError(text) : InputError(verb + ": " + text);
 }
 
 }  // namespace
@@ -140,9 +132,7 @@ void CommandLine::AddListed(std::initializer_list<std::string_view> groups) {
 
 int CommandLine::Help(const std::string& verb) const {
   if (!verb.empty()) RefuseUnknownVerb(*this, verb);
-  const auto named = [&verb](const Verb& each) { return each.name == verb; };
-  const auto found = std::find_if(verbs.begin(), verbs.end(), named);
-  std::cout << (found == verbs.end() ? HelpOf(*this) : HelpOf(*found));
+  std::cout << (verb.empty() ? HelpOf(*this) : HelpOf(*RowNamed(verbs, verb)));
   return kExitDone;
 }
 

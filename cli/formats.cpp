@@ -12,17 +12,12 @@
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/record/asymmetry.h"
+#include "corpus/named_rows.h"
 #include "search/campaign.h"
 #include "search/under_test/reproducer.h"
 
 namespace stiction {
 namespace {
-
-std::vector<std::string> FormatNames() {
-  std::vector<std::string> names;
-  for (const PublishedFormat& format : PublishedFormats()) names.push_back(format.name);
-  return names;
-}
 
 std::string StoragesText() {
   std::vector<std::string> rows;
@@ -102,7 +97,7 @@ const ListedVerb kImportVerb("Solve", 80, [](CommandLine& program) {
                "(rolling, relay, ...) are refused by their name");
   verb.Option("-o,--output", o.output, "stiction-problem to write; - is standard output").Required();
   verb.Option("--format", o.format, "the format of the file; by default its content decides")
-      .OneOf(FormatNames());
+      .OneOf(NamesOf(PublishedFormats()));
   verb.Flag("--symmetrize", o.symmetrize, "replace A by (A + A')/2; `origin` keeps the largest difference");
   verb.Prints(o.json, "a problem that was read from another format", R"({
       written: written, contacts: integer, dimension: 2 | 3,
@@ -115,7 +110,7 @@ const ListedVerb kExportVerb("Solve", 90, [](CommandLine& program) {
       program.Add("export", "Write a problem in another format, or a program that shows a finding", Export);
   verb.Positional("FILE", o.file, kFileHelp).Required().Details(kFileDetails);
   verb.Option("-o,--output", o.output, "file to write; - is standard output").Required();
-  verb.Option("--format", o.format, "the format to write").OneOf(FormatNames());
+  verb.Option("--format", o.format, "the format to write").OneOf(NamesOf(PublishedFormats()));
   verb.Option("--storage", o.storage, "how the matrix is stored; by default the first of its format")
       .Details(StoragesText());
   verb.Flag("--round", o.round, "write the nearest double for a number that is none");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "corpus/named_rows.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {
@@ -47,11 +48,6 @@ std::string Paragraphs(const std::string& text) {
   return lines;
 }
 
-std::string WithCommaSpace(const std::string& name) {
-  const std::size_t comma = name.find(',');
-  return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
-}
-
 std::string RangeText(const OptionRow& row) {
   if (row.min == -std::numeric_limits<double>::infinity()) return "";
   if (row.max == kMostInteger) return fmt::format("{:g} or more", row.min);
@@ -70,12 +66,6 @@ std::string Notes(const OptionRow& row) {
   note("default ", row.default_value);
   note("with ", row.needs);
   return notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; "));
-}
-
-std::string NamesOf(const std::vector<AllowedValue>& choices) {
-  std::vector<std::string_view> names;
-  for (const AllowedValue& choice : choices) names.push_back(choice.name);
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string EntryOf(const OptionRow& row) {
@@ -119,14 +109,15 @@ std::size_t Distance(std::string_view left, std::string_view right) {
 
 std::string TermOf(const OptionRow& row) {
   if (row.kind == RowKind::kPositional) return row.name + (row.IsRepeated() ? " ..." : "");
-  std::string term = WithCommaSpace(row.name);
+  std::string term = fmt::format("{}", fmt::join(row.Spellings(), ", "));
   if (row.kind == RowKind::kOption) term += fmt::format(" {}", row.TypeName());
   return term + (row.IsRepeated() ? " ..." : "");
 }
 
 std::string MeaningOf(const OptionRow& row) {
   std::string text = row.help;
-  if (!row.choices.empty() && !AreExplained(row.choices)) text += ": " + NamesOf(row.choices);
+  if (!row.choices.empty() && !AreExplained(row.choices))
+    text += fmt::format(": {}", fmt::join(NamesOf(row.choices), ", "));
   return text + Notes(row) + (row.details.empty() ? "" : ". " + row.details);
 }
 

@@ -12,12 +12,16 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/completion.bash_in.h"
 #include "cli/help.h"
+#include "cli/manual.1_in.h"
 #include "cli/schema.h"
 #include "cli/words.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
+#include "corpus/named_rows.h"
+#include "corpus/text_template.h"
 #include "search/campaign.h"
 
 namespace stiction {
@@ -41,8 +45,6 @@ std::string Escaped(std::string_view text) {
 std::string Paragraph(std::string_view term, std::string_view meaning) {
   return fmt::format(".TP\n.B {}\n{}\n", Escaped(term), Escaped(meaning));
 }
-
-std::string Section(std::string_view title) { return fmt::format(".SH {}\n", title); }
 
 // Every line a paragraph; those that are indented hang together.
 std::string Lines(const std::string& text) {
@@ -74,13 +76,6 @@ std::string VerbInMan(const Verb& verb) {
 
 std::string Quoted(const std::string& words) { return "'" + words + "'"; }
 
-// "--json", and "-o" too of "-o,--output".
-std::vector<std::string> Spellings(const OptionRow& row) {
-  const std::size_t comma = row.name.find(',');
-  if (comma == std::string::npos) return {row.name};
-  return {row.name.substr(0, comma), row.name.substr(comma + 1)};
-}
-
 std::string Words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 // Case arms "VERB OPTION) values": of options whose values are a list.
@@ -88,10 +83,10 @@ std::string ValueArms(const Verb& verb) {
   std::string arms;
   for (const OptionRow& row : verb.rows) {
     if (row.kind != RowKind::kOption || row.choices.empty()) continue;
-    std::vector<std::string> patterns, values;
-    for (const std::string& name : Spellings(row)) patterns.push_back(fmt::format("'{} {}'", verb.name, name));
-    for (const AllowedValue& choice : row.choices) values.push_back(choice.name);
-    arms += fmt::format("    {}) values={} ;;\n", fmt::join(patterns, " | "), Quoted(Words(values)));
+    std::vector<std::string> patterns;
+    for (const std::string& name : row.Spellings()) patterns.push_back(fmt::format("'{} {}'", verb.name, name));
+    arms +=
+        fmt::format("    {}) values={} ;;\n", fmt::join(patterns, " | "), Quoted(Words(NamesOf(row.choices))));
   }
   return arms;
 }
@@ -100,7 +95,7 @@ std::string OptionArm(const Verb& verb) {
   std::vector<std::string> options = {"--help"};
   for (const OptionRow& row : verb.rows) {
     if (row.kind == RowKind::kPositional) continue;
-    for (const std::string& name : Spellings(row)) options.push_back(name);
+    for (const std::string& name : row.Spellings()) options.push_back(name);
   }
   return fmt::format("    {}) options={} ;;\n", verb.name, Quoted(Words(options)));
 }
@@ -112,7 +107,7 @@ std::string_view NameOf(RowKind kind) {
 }
 
 Json RowInJson(const OptionRow& row) {
-  Json json = {{"kind", NameOf(row.kind)},     {"names", Spellings(row)},
+  Json json = {{"kind", NameOf(row.kind)},     {"names", row.Spellings()},
                {"type", row.TypeName()},       {"help", row.help},
                {"required", row.required},     {"repeated", row.IsRepeated()},
                {"default", row.default_value}, {"choices", Json::array()}};
@@ -128,93 +123,42 @@ std::string NameAndNumber(const std::string& version) {
 
 // ---- Whole texts ----
 
-// In the language of man(7), section 1.
-std::string ManPage(const CommandLine& program) {
-  std::string text =
-      fmt::format(".TH STICTION 1 \"\" \"{}\" \"User commands\"\n", Escaped(NameAndNumber(program.version)));
-  text +=
-      Section("NAME") + "stiction \\- " + Escaped(program.purpose.substr(program.purpose.find(' ') + 1)) + "\n";
-  text += Section("SYNOPSIS") + ".B stiction\n.I VERB\n[\n.I OPTIONS\n]\n";
-  text +=
-      Section("DESCRIPTION") +
-      "Searches for problems on which the pivoting algorithm of D. Baraff, Fast Contact Force Computation for "
-      "Nonpenetrating Rigid Bodies (1994), loops for ever; replays them, certifies them, and reports on "
-      "them.\n";
-  std::string group;
+// In the language of man(7), section 1: of all verbs, or of the program stiction-bench, which reads the words
+// of the verb bench.
+std::string ManPage(const CommandLine& program, bool of_bench) {
+  std::string rows, words, group;
   for (const Verb& verb : program.verbs) {
-    if (verb.group != group) text += Section("VERBS: " + verb.group);
-    group = verb.group;
-    text += VerbInMan(verb);
+    if (of_bench) {
+      if (verb.name != "bench") continue;
+      for (const OptionRow& row : verb.rows) rows += RowInMan(row);
+    } else {
+      if (verb.group != group) rows += fmt::format(".SH VERBS: {}\n", verb.group);
+      group = verb.group;
+      rows += VerbInMan(verb);
+    }
   }
-  text += Section("EXIT STATUS") + Lines(program.footer);
-  text += Section("WORDS");
-  for (const Word& word : AllWords())
-    text += Paragraph(word.name, fmt::format("{}{}", word.meaning,
-                                             word.source.empty() ? "" : fmt::format(" ({})", word.source)));
-  text += ".PP\nNumbers in brackets are sections of the paper.\n";
-  text += Section("EXAMPLES");
-  for (const auto& [command, says] : std::initializer_list<std::pair<std::string_view, std::string_view>>{
-           {"stiction search --minutes 480", "a night of search on all cores, into stiction.store"},
-           {"stiction report stiction.store -o report", "what it found, as a page"},
-           {"stiction replay report/findings/NAME.json --step", "a loop, step by step"}})
-    text += Paragraph(command, says);
-  return text + Section("SEE ALSO") + ".BR stiction\\-bench (1),\n.BR stiction\\-ipopt (1)\n";
-}
-
-// The page of the program stiction-bench, which reads the words of the verb bench.
-std::string ManPageOfBench(const CommandLine& program) {
-  const auto is_bench = [](const Verb& each) { return each.name == "bench"; };
-  const Verb& verb = *std::find_if(program.verbs.begin(), program.verbs.end(), is_bench);
-  std::string text = fmt::format(".TH STICTION\\-BENCH 1 \"\" \"{}\" \"User commands\"\n",
-                                 Escaped(NameAndNumber(program.version)));
-  text += Section("NAME") + "stiction\\-bench \\- " + Escaped(verb.purpose) + "\n";
-  text +=
-      Section("SYNOPSIS") + ".B stiction\\-bench\n[\n.I OPTIONS\n]\n.br\n.B stiction bench\n[\n.I OPTIONS\n]\n";
-  text += Section("DESCRIPTION") + "Runs one suite, which measures and prints tables.\n.BR stiction (1)\n" +
-          Escaped(
-              "becomes it, as its verb bench. Where other packages are measured too, their program is "
-              "stiction-peers, which is built with the sources and not installed.") +
-          "\n";
-  text += Section("OPTIONS");
-  for (const OptionRow& row : verb.rows) text += RowInMan(row);
-  text += Section("EXIT STATUS") + Lines(program.footer);
-  return text + Section("SEE ALSO") + ".BR stiction (1)\n";
+  for (const Json& word : AllWords()) words += Paragraph(word["word"].get<std::string>(), MeaningOf(word));
+  const std::string purpose = of_bench ? RowNamed(program.verbs, "bench")->purpose
+                                       : program.purpose.substr(program.purpose.find(' ') + 1);
+  Blanks blanks = {{{"VERSION", Escaped(NameAndNumber(program.version))},
+                    {"PURPOSE", Escaped(purpose)},
+                    {"ROWS", rows},
+                    {"EXITS", Lines(program.footer)},
+                    {"WORDS", words}}};
+  if (of_bench) blanks.words = {"bench"};
+  return Filled(kManual1, blanks);
 }
 
 // A script for bash: verbs, their options, and the values of those that have a list; files elsewhere.
 std::string BashCompletion(const CommandLine& program) {
-  std::vector<std::string> verbs;
   std::string options, values;
   for (const Verb& verb : program.verbs) {
-    verbs.push_back(verb.name);
     options += OptionArm(verb);
     values += ValueArms(verb);
   }
-  return fmt::format(R"(# bash completion of stiction; written by `stiction manual --format bash`.
-_stiction() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options= values=
-  COMPREPLY=()
-  if ((COMP_CWORD == 1)) || [[ $verb == help && $COMP_CWORD == 2 ]]; then
-    mapfile -t COMPREPLY < <(compgen -W {} -- "$word")
-    return
-  fi
-  case "$verb $before" in
-{}  esac
-  if [[ -n $values ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
-    return
-  fi
-  case $verb in
-{}  esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
-  else
-    mapfile -t COMPREPLY < <(compgen -f -- "$word")
-  fi
-}}
-complete -o filenames -F _stiction stiction
-)",
-                     Quoted(Words(verbs) + " help --help --version"), values, options);
+  return Filled(kCompletionBash, {{{"VERBS", Quoted(Words(NamesOf(program.verbs)) + " help --help --version")},
+                                   {"VALUES", values},
+                                   {"OPTIONS", options}}});
 }
 
 // Verbs with their rows, as a program reads them.
@@ -240,7 +184,7 @@ struct ManualOptions {
 
 std::string TextIn(const std::string& format, const CommandLine& program) {
   if (format == "bash") return BashCompletion(program);
-  return format == "man" ? ManPage(program) : ManPageOfBench(program);
+  return ManPage(program, format == "man-bench");
 }
 
 // A file VERB.schema.json for each verb, and one for campaign files.

@@ -33,13 +33,22 @@ constexpr double kPatience = 60;                    // seconds for a command
 
 constexpr std::size_t kNewsAtOnce = 20;  // lines of new groups, after which the others are counted
 
+constexpr int kRed = 31, kGreen = 32;  // of a terminal
+
+// Text for standard error: in colour where that is a terminal and NO_COLOR is not set (no-color.org).
+std::string Coloured(const std::string& text, int colour) {
+  const char* const refused = std::getenv("NO_COLOR");
+  if (isatty(STDERR_FILENO) == 0 || (refused != nullptr && *refused != '\0')) return text;
+  return fmt::format("\033[{}m{}\033[0m", colour, text);
+}
+
 // "cycle-2c-4d-8s-cc8da49e0296c085: integers, 2 contacts, in the corpus: NAME". Loops and what is grave in
 // colour.
 std::string LineOf(const Finding& finding) {
   const bool loop = finding.exact_outcome == "cycle" || finding.exact_outcome == "stall";
   const std::string known(KnownAs(finding.signature));
-  const std::string name = IsGrave(finding.kind) ? Coloured(finding.signature + " GRAVE", Colour::kGrave)
-                           : loop                ? Coloured(finding.signature, Colour::kLoop)
+  const std::string name = IsGrave(finding.kind) ? Coloured(finding.signature + " GRAVE", kRed)
+                           : loop                ? Coloured(finding.signature, kGreen)
                                                  : finding.signature;
   return fmt::format("{}: {}, {} contact{}{}", name, finding.generator, finding.contacts,
                      finding.contacts == 1 ? "" : "s", known.empty() ? "" : ", in the corpus: " + known);
@@ -67,12 +76,6 @@ std::string NewsText(const std::vector<Finding>& news) {
 std::string TimeOfDay() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(now));
-}
-
-std::string Coloured(const std::string& text, Colour colour) {
-  const char* const refused = std::getenv("NO_COLOR");
-  if (isatty(STDERR_FILENO) == 0 || (refused != nullptr && *refused != '\0')) return text;
-  return fmt::format("\033[{}m{}\033[0m", colour == Colour::kLoop ? 32 : 31, text);
 }
 
 ShowFindings Reading(ProgressBar& bar, const std::string& file) {

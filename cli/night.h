@@ -18,10 +18,6 @@ namespace stiction {
 // "2026-01-31 23:59:59", local.
 std::string TimeOfDay();
 
-// Text for standard error: in colour where that is a terminal and NO_COLOR is not set (no-color.org).
-enum class Colour { kLoop, kGrave };
-std::string Coloured(const std::string& text, Colour colour);
-
 // How far a store is read, which is named if it is one of several.
 ShowFindings Reading(ProgressBar& bar, const std::string& file = {});
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/playable.h"
 
-#include "cli/narration/over_intervals.h"
 #include "cli/narration/page_of_run.h"
+#include "cli/narration/published_ends.h"
 #include "cli/version.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
 

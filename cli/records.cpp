@@ -14,6 +14,7 @@
 #include "cli/version.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
+#include "corpus/named_rows.h"
 #include "search/adversary/record.h"
 #include "search/campaign.h"
 #include "search/summary.h"
@@ -135,14 +136,12 @@ OwnSearch OwnSearchOf(const Store& store) {
 const ListedVerb kRecordsVerb("Find", 50, [](CommandLine& program) {
   auto [verb, o] =
       program.Add("records", "The worst problems that are known, and what random ones reach", RunRecords);
-  std::vector<std::string> objectives;
-  for (const Objective& objective : Objectives()) objectives.emplace_back(objective.name);
   verb.Option("--folder", o.folder, "of records; by default those of the repository or of the package");
   verb.Flag("--check", o.check, "compute every value anew, and check every certificate");
   verb.Option("--add", o.add, "instead: make a record of this problem file");
   verb.Option("--frontier", o.frontier, "its name, and that of its file");
   verb.Option("--what", o.what, "what the record is one of, in words");
-  verb.Option("--objective", o.objective, "what is counted").OneOf(objectives);
+  verb.Option("--objective", o.objective, "what is counted").OneOf(NamesOf(Objectives()));
   verb.Option("--command", o.command, "what found it");
   verb.Option("--seconds", o.seconds, "processor time of that");
   verb.Option("--random", o.random, "the best of random problems at equal cost; without it nothing was found");

@@ -13,11 +13,10 @@
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/command_line.h"
-#include "cli/narration/all_policies.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
-#include "cli/narration/over_intervals.h"
 #include "cli/narration/problem_text.h"
+#include "cli/narration/published_ends.h"
 #include "cli/playable.h"
 #include "cli/shared.h"
 #include "cli/words.h"
@@ -31,12 +30,6 @@
 namespace stiction {
 namespace {
 
-// What a method is followed on: a problem, and the picture of its scene, or null.
-struct ReplayFile {
-  ProblemFile file;
-  Json picture;
-};
-
 struct ReplayOptions : Wanted {
   ReplayOptions() { method = "baraff"; }
 
@@ -48,7 +41,6 @@ struct ReplayOptions : Wanted {
   bool fractions = false;  // for people, in full
   std::string record, html, svg;
 
-  PathOptions path() const { return {method, policy, request.limits}; }
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
 
@@ -110,21 +102,23 @@ std::string CommandOf(const ReplayOptions& o) {
   return command + " --html OUT";
 }
 
-void WritePage(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution,
+void WritePage(const ReplayOptions& o, const ProblemFile& file, const Solution& solution,
                const std::optional<InexactAnswer>& over_intervals) {
   const Playable playable =
-      PlayableOf(o, replay.file, replay.picture, solution, over_intervals, o.file, CommandOf(o));
-  WriteText(o.html, ViewerPage(replay.file.name + ", step by step", playable.data, playable.origin));
+      PlayableOf(o, file, PictureBeside(file, o.file), solution, over_intervals, o.file, CommandOf(o));
+  WriteText(o.html, ViewerPage(file.name + ", step by step", playable.data, playable.origin));
 }
 
 // The period of a loop, again and again; all of another run.
-void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const Solution& solution) {
+void WriteMovingPicture(const ReplayOptions& o, const Request& request, const ProblemFile& file,
+                        const Solution& solution) {
   constexpr std::size_t kMostStills = 200;
   constexpr double kSeconds = 1.1;
-  if (replay.picture.is_null())
+  const Json picture = PictureBeside(file, o.file);
+  if (picture.is_null())
     throw InputError(o.file, "--svg", "a problem without its scene",
                      "a scene; --html makes a page of any problem");
-  const FollowedRun run = Followed(o.path(), replay.file, solution);
+  const FollowedRun run = Followed(request, file, solution);
   const bool loops = run.replay["outcome"] == "cycle";
   const std::int64_t start = loops ? run.replay["start"].get<std::int64_t>() : 0;
   std::vector<Still> stills;
@@ -141,24 +135,23 @@ void WriteMovingPicture(const ReplayOptions& o, const ReplayFile& replay, const 
   if (stills.empty() || stills.size() > kMostStills)
     throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
                      fmt::format("1 to {}; --html makes a page of more", kMostStills));
-  const std::string title = loops ? fmt::format("{}: {}, again and again", replay.file.name,
+  const std::string title = loops ? fmt::format("{}: {}, again and again", file.name,
                                                 Counted(run.replay["period"].get<std::int64_t>(), "drive"))
-                                  : fmt::format("{}: {}", replay.file.name, run.end);
-  WriteText(o.svg, MovingPicture(replay.picture, title, stills, kSeconds));
+                                  : fmt::format("{}: {}", file.name, run.end);
+  WriteText(o.svg, MovingPicture(picture, title, stills, kSeconds));
 }
 
-int ReplayOne(const ReplayOptions& o, const ReplayFile& replay) {
-  const ProblemFile& file = replay.file;
+int ReplayOne(const ReplayOptions& o, const ProblemFile& file) {
   const Request request = PathRequestOf(o, file.problem, o.file);
   const Solution solution = SolveAsked(file.problem, request, o.file);
   const std::string expected = o.method == "baraff" ? Expected(file, request.policy) : "";
   Narration narration = Narrate(o.method, file, solution, {o.step || !o.json, o.as()});
   const auto proved = OverIntervals(file.problem, request, solution.outcome());
-  if (!o.html.empty()) WritePage(o, replay, solution, proved);
-  if (!o.svg.empty()) WriteMovingPicture(o, replay, solution);
+  if (!o.html.empty()) WritePage(o, file, solution, proved);
+  if (!o.svg.empty()) WriteMovingPicture(o, request, file, solution);
   if (o.html == "-" || o.svg == "-") return ExitOf(solution.outcome(), expected);
   if (o.json) {
-    Json json = ReplayToJson(o.path(), file, solution, std::move(narration), o.step);
+    Json json = ReplayToJson(request, file, solution, std::move(narration), o.step);
     if (proved) json["over_intervals"] = EndToJson(*proved);
     json["expected"] = expected;
     std::cout << JsonText(json) << "\n";
@@ -264,12 +257,11 @@ int ReplayAll(const ReplayOptions& o, const ProblemFile& file) {
 }
 
 int Replay(const ReplayOptions& o) {
-  ReplayFile replay{ReadProblem(o.file), {}};
-  replay.picture = PictureBeside(replay.file, o.file);
-  if (!o.all_policies) return ReplayOne(o, replay);
+  const ProblemFile file = ReadProblem(o.file);
+  if (!o.all_policies) return ReplayOne(o, file);
   if (!o.html.empty()) throw InputError("--html: found --all-policies, expected one policy");
   if (!o.svg.empty()) throw InputError("--svg: found --all-policies, expected one policy");
-  return ReplayAll(o, replay.file);
+  return ReplayAll(o, file);
 }
 
 std::vector<AllowedValue> PathMethodChoices() {

@@ -14,6 +14,7 @@
 #include "certify/exact/modes.h"
 #include "certify/request/solve_in.h"
 #include "corpus/json_text.h"
+#include "corpus/named_rows.h"
 #include "search/summary.h"
 #include "search/under_test/solver_report.h"
 #include "solver/problem/check.h"
@@ -167,10 +168,8 @@ class ShapeReader {
 };
 
 const NamedShape& Named(const std::string& name) {
-  const auto& all = NamedShapes();
-  const auto named =
-      std::find_if(all.begin(), all.end(), [&](const NamedShape& one) { return one.name == name; });
-  STICTION_CHECK(named != all.end(), "no shape has the name " + name);
+  const NamedShape* const named = RowNamed(NamedShapes(), name);
+  STICTION_CHECK(named != nullptr, "no shape has the name " + name);
   return *named;
 }
 
@@ -188,13 +187,6 @@ void ShapeReader::Spread(const std::string& name, Json& properties, std::set<std
 template <class Names>
 std::string OneOf(const Names& names) {
   return fmt::format("\"{}\"", fmt::join(names, "\" | \""));
-}
-
-template <class Rows>
-std::string OneOfRows(const Rows& rows) {
-  std::vector<std::string_view> names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return OneOf(names);
 }
 
 std::string OneOfModes() {
@@ -217,8 +209,8 @@ const std::vector<NamedShape>& NamedShapes() {
       {"outcome", OneOf(kOutcomeNames) + R"( | "no-solution")", ""},
       {"arithmetic", OneOf(kArithmeticNames), ""},
       {"rung", OneOf(kRungNames), "the arithmetic that decided"},
-      {"method", OneOfRows(AllMethods()) + R"( | "auto")", "auto: of a problem without rows"},
-      {"claim", OneOfRows(AllClaims()), ""},
+      {"method", OneOf(NamesOf(AllMethods())) + R"( | "auto")", "auto: of a problem without rows"},
+      {"claim", OneOf(NamesOf(AllClaims())), ""},
       {"law", OneOf(std::array{Name(FrictionLaw::kBaraff), Name(FrictionLaw::kCoulomb)}), ""},
       {"mode", OneOfModes(), ""},
       {"digest", "`^(sha256:[0-9a-f]{64})?$`", ""},

@@ -14,7 +14,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <set>
 #include <thread>
 
 #include "cli/command_line.h"
@@ -25,6 +24,7 @@
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "corpus/machine.h"
+#include "corpus/named_rows.h"
 #include "corpus/record/counts.h"
 #include "corpus/record/fields.ipp"
 #include "corpus/record/kinds.h"
@@ -116,11 +116,12 @@ void Set(const FieldOf<Campaign>& field, const Given& given, Campaign& campaign)
 }
 
 // A solver that says nothing costs no more than the search would.
-SolverPatience PatienceOf(const SearchVerb& verb) {
+SolverProcess SolverOf(const SearchVerb& verb) {
   constexpr double kLeast = 5;
   const double budget = 60 * verb.minutes.value_or(kDefaultMinutes);
-  return {.stopped = [&interrupted = Interruption()] { return interrupted.load(); },
-          .greeting = std::min(kGreetingSeconds, std::max(kLeast, budget))};
+  return SolverProcess(
+      SolverCommand(verb.solver), [&interrupted = Interruption()] { return interrupted.load(); },
+      std::min(kGreetingSeconds, std::max(kLeast, budget)));
 }
 
 Campaign CampaignOf(const SearchVerb& verb) {
@@ -164,7 +165,7 @@ Campaign CampaignOf(const SearchVerb& verb) {
     for (Candidate& parent : ParentsFrom(source, campaign)) campaign.parents.push_back(std::move(parent));
   }
   if (!verb.solver.empty()) {
-    const SolverProcess solver(SolverCommand(verb.solver), PatienceOf(verb));
+    const SolverProcess solver = SolverOf(verb);
     campaign.solver = solver.about();
     campaign.no_leaks |= solver.KeepsMemory();
   }
@@ -339,26 +340,18 @@ struct StatusVerb {
   bool json = false;
 };
 
-// Signatures met so far, and how many problems were run.
-struct Look {
-  std::int64_t problems = 0;
-  std::set<std::string> signatures;
-};
-
-Look LookAt(const Store& store) {
-  Look look;
-  const Record total = store.Total();
-  look.problems = CountAll(total).runs;
-  for (const auto& [key, tally] : total.under_test) look.problems += tally.problems;
-  for (const auto& [signature, count] : total.signatures) look.signatures.insert(signature);
-  return look;
+// How many problems were run.
+std::int64_t RunsOf(const Record& record) {
+  std::int64_t runs = CountAll(record).runs;
+  for (const auto& [key, tally] : record.under_test) runs += tally.problems;
+  return runs;
 }
 
 // Names at most `most` of the new groups.
-std::string Changes(const Look& before, const Look& now, std::int64_t most) {
+std::string Changes(const Record& before, const Record& now, std::int64_t most) {
   std::string names;
   std::int64_t groups = 0;
-  for (const std::string& signature : now.signatures) {
+  for (const auto& [signature, count] : now.signatures) {
     if (before.signatures.contains(signature) || groups++ >= most) continue;
     const std::string known(KnownAs(signature));
     names +=
@@ -366,7 +359,7 @@ std::string Changes(const Look& before, const Look& now, std::int64_t most) {
   }
   if (groups > most) names += ", ...";
   return fmt::format(
-      "{}, {} more; {}, {} new{}", Counted(now.problems, "run"), Grouped(now.problems - before.problems),
+      "{}, {} more; {}, {} new{}", Counted(RunsOf(now), "run"), Grouped(RunsOf(now) - RunsOf(before)),
       Counted(static_cast<std::int64_t>(now.signatures.size()), "group"), Grouped(groups), names);
 }
 
@@ -391,16 +384,16 @@ constexpr std::int64_t kMostNewOnScreen = 4;  // groups that are named: the summ
 void Watch(const std::string& file) {
   const std::atomic<bool>& interrupted = Interruption();
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::optional<Look> before;
+  std::optional<Record> before;
   while (!interrupted && StoreLock::IsHeld(file)) {
     if (std::filesystem::exists(file)) {  // a search makes it in its first moment
       const Store store = OpenSound(file);
-      const Look now = LookAt(store);
+      const Record now = store.Total();
       const std::int64_t most = terminal ? kMostNewOnScreen : std::numeric_limits<std::int64_t>::max();
       const std::string line = fmt::format("{} {}", TimeOfDay(), Changes(before.value_or(now), now, most));
       if (terminal) {
         Redraw(Folded(line, TextWidth(STDERR_FILENO)), SummaryOf(store, file));
-      } else if (!before || now.problems != before->problems) {
+      } else if (!before || RunsOf(now) != RunsOf(*before)) {
         fmt::print(std::cerr, "{}\n", line);
       }
       before = now;
@@ -500,8 +493,7 @@ int RunProblem(const ProblemVerb& o) {
   if (stored == o.exponential.has_value() || (stored ? !complete || o.scaled : o.best || o.index.has_value())) {
     throw InputError(
         "problem: expected either STORE UNIT INDEX, or STORE SIGNATURE, or STORE --best, or --exponential N "
-        "and "
-        "perhaps --scaled");
+        "and perhaps --scaled");
   }
   if (o.scene && !is_finding) throw InputError("problem: found --scene, expected it with STORE SIGNATURE");
   const ProblemFile file = o.scene      ? SceneFileOf(o)
@@ -611,13 +603,6 @@ std::string MinutesError(const std::string& text) {
 }
 
 template <class Rows>
-std::vector<std::string> NamesOf(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const auto& row : rows) names.emplace_back(row.name);
-  return names;
-}
-
-template <class Rows>
 std::string HelpOf(const Rows& rows) {
   std::string help;
   for (const auto& row : rows) help += fmt::format("\n  {}: {}", row.name, row.help);
@@ -651,9 +636,7 @@ void AddOption(Verb& verb, const FieldOf<Campaign>& field, Given& given) {
 }
 
 void AddCampaignOptions(Verb& verb, CampaignWords& o) {
-  std::vector<std::string> names;
-  for (const GeneratorRow& row : Generators()) names.emplace_back(row.name);
-  verb.Option("-g,--generator", o.generators, "only these generators").OneOf(names);
+  verb.Option("-g,--generator", o.generators, "only these generators").OneOf(NamesOf(Generators()));
   verb.Option("-c,--contacts", o.contacts, "only these numbers of contacts").Range(1, kMaxContacts);
   verb.Option("--mu", o.mu, "friction coefficients to draw from, e.g. 1/2 1 2");
   verb.Option("-p,--policy", o.policies, "policies to run, as 'stiction policies' lists them; by default paper")
@@ -696,23 +679,19 @@ const ListedVerb kSearchVerb("Find", 10, [](CommandLine& program) {
       .Range(0, 100)
       .Details(
           "By default 20, with an objective 5; 0 finishes none, 100 leaves none unfinished. Of a kind and "
-          "number of "
-          "contacts at most 100 are finished. After the last unit of --problems half a minute of each thread "
-          "is used in any case; what waits then is left to --finish");
+          "number of contacts at most 100 are finished. After the last unit of --problems half a minute of "
+          "each thread is used in any case; what waits then is left to --finish");
   verb.Flag("--finish", o.finish, "run no problems: finish all findings of the store, however many");
   verb.Option("--solver", o.solver,
               "test this solver in place of the published algorithm: NAME.so, or a program")
       .Details(
           "It is given the problems in a process of its own, and its forces are judged by the conditions of "
-          "its "
-          "law: search/under_test/README.md. With --finish, the solver that the store tests");
+          "its law: search/under_test/README.md. With --finish, the solver that the store tests");
   verb.Option("--on-finding", o.on_finding, "shell command to run for each new group and each grave finding")
       .Details(
           "The finding is on its standard input as JSON, and in STICTION_SIGNATURE, STICTION_KIND, "
-          "STICTION_GRAVE, "
-          "STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and STICTION_STORE. One that "
-          "fails, "
-          "or takes a minute, is reported");
+          "STICTION_GRAVE, STICTION_KNOWN, STICTION_CONTACTS, STICTION_UNIT, STICTION_INDEX and "
+          "STICTION_STORE. One that fails, or takes a minute, is reported");
   verb.Prints(o.json, "what a store holds", "summary | optimized | tested");
   verb.footer = "Generators:";
   for (const GeneratorRow& row : Generators())

@@ -18,6 +18,7 @@
 #include "corpus/json.h"
 #include "corpus/record/asymmetry.h"
 #include "corpus/record/factors.h"
+#include "corpus/named_rows.h"
 
 namespace stiction {
 namespace {
@@ -58,15 +59,13 @@ std::string NearestPolicyWord(const std::string& text) {
   for (std::string setting; std::getline(settings, setting, ',');) {
     const std::size_t equals = std::min(setting.find('='), setting.size());
     const std::string name = setting.substr(0, equals);
-    std::vector<std::string> names = {"paper"};
-    for (const PolicySwitchRow& row : PolicySwitches()) names.emplace_back(row.name);
-    const auto row = std::find_if(PolicySwitches().begin(), PolicySwitches().end(),
-                                  [&name](const PolicySwitchRow& each) { return each.name == name; });
-    if (row == PolicySwitches().end()) return Nearest(name, names);
+    std::vector<std::string> names = NamesOf(PolicySwitches());
+    names.insert(names.begin(), "paper");
+    const PolicySwitchRow* const row = RowNamed(PolicySwitches(), name);
+    if (row == nullptr) return Nearest(name, names);
     if (equals == setting.size()) return "";
     const std::string value = setting.substr(equals + 1);
-    names.clear();
-    for (const PolicyValue& each : row->values) names.emplace_back(each.name);
+    names = NamesOf(row->values);
     if (std::find(names.begin(), names.end(), value) == names.end()) return Nearest(value, names);
   }
   return "";

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/help.h"
+#include "corpus/named_rows.h"
 #include "corpus/rational.h"
 
 namespace stiction {
@@ -85,8 +86,7 @@ std::string ExpectedNumber(const OptionRow& row) {
 
 std::string ErrorOf(const OptionRow& row, const std::string& word) {
   if (!row.choices.empty()) {
-    std::vector<std::string> names;
-    for (const AllowedValue& choice : row.choices) names.push_back(choice.name);
+    const std::vector<std::string> names = NamesOf(row.choices);
     if (std::find(names.begin(), names.end(), word) == names.end()) {
       const std::string nearest = Nearest(word, names);
       std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
@@ -121,6 +121,12 @@ OptionRow& OptionRow::OneOf(const std::vector<std::string>& names) {
 bool OptionRow::IsRepeated() const {
   return std::holds_alternative<std::vector<int>*>(field) ||
          std::holds_alternative<std::vector<std::string>*>(field);
+}
+
+std::vector<std::string> OptionRow::Spellings() const {
+  const std::size_t comma = name.find(',');
+  if (comma == name.npos) return {name};
+  return {name.substr(0, comma), name.substr(comma + 1)};
 }
 
 std::string_view OptionRow::TypeName() const {

@@ -78,6 +78,8 @@ struct OptionRow {
   OptionRow& Check(std::function<std::string(const std::string&)> of) { return check = std::move(of), *this; }
 
   bool IsRepeated() const;
+  // "--json", of "-j,--json" both: the long one last.
+  std::vector<std::string> Spellings() const;
   // "TEXT", "INTEGER", "NUMBER"; empty for a flag.
   std::string_view TypeName() const;
 };

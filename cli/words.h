@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of answers and replays, in one table: what `stiction words`, the man page and the end of a replay
-// say.
+// The words of answers and replays, in one table, words.json: what `stiction words`, the man page and the end
+// of a replay say.
 
 #ifndef STICTION_CLI_WORDS_H_
 #define STICTION_CLI_WORDS_H_
 
-#include <span>
 #include <string>
 #include <string_view>
 
+#include "corpus/json_text.h"
+
 namespace stiction {
 
-struct Word {
-  std::string_view name;
-  std::string_view meaning;
-  std::string_view source;  // a section of the paper, or a page of stiction; empty: neither
-};
+// Rows {"word", "meaning", "source"}: a section of the paper, a page of stiction, or empty.
+const Json& AllWords();
 
-std::span<const Word> AllWords();
+// The meaning of a row, with its source in brackets.
+std::string MeaningOf(const Json& word);
 
 // The meanings of the words that stand in a text, a line or more each, in the order of the table.
 std::string GlossaryOf(std::string_view text);

@@ -26,12 +26,11 @@
 #include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
-#include "cli/narration/all_policies.h"
 #include "cli/narration/explained.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/listed.h"
-#include "cli/narration/over_intervals.h"
 #include "cli/narration/page_of_run.h"
+#include "cli/narration/published_ends.h"
 #include "corpus/atomic_file.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/intervals.h"
@@ -363,7 +362,7 @@ py::object ReplayProblem(PythonProblem& problem, const std::string& policy, cons
   return ToPython(Interruptible(0, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
     const Solution solution = SolveAsked(problem.problem(), request, kSource);
-    Json json = ReplayToJson({method, policy, wanted.request.limits}, problem.file(), solution,
+    Json json = ReplayToJson(request, problem.file(), solution,
                              Narrate(method, problem.file(), solution, {.vectors = true}), true);
     const auto proved = OverIntervals(dense, request, solution.outcome());
     if (proved) json["over_intervals"] = EndToJson(*proved);

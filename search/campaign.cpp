@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "corpus/json.h"
+#include "corpus/named_rows.h"
 #include "corpus/record/fields.ipp"
 #include "search/adversary/optimizer.h"
 #include "search/adversary/parents.h"
@@ -39,12 +40,7 @@ Policy ReadPolicy(const JsonPlace& place) {
   }
 }
 
-template <class Rows>
-std::string NamesOf(const Rows& rows) {
-  std::string names;
-  for (const auto& row : rows) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
-  return names;
-}
+std::string OneOf(const auto& rows) { return fmt::format("one of {}", fmt::join(NamesOf(rows), ", ")); }
 
 template <class Read>
 auto ReadList(const JsonPlace& list, Read read) {
@@ -66,11 +62,7 @@ Json WriteList(const Values& values, Write write) {
 
 GeneratorId ReadGenerator(const JsonPlace& place) {
   const auto id = FindGenerator(place.Text("the name of a generator"));
-  if (!id) {
-    std::vector<std::string_view> names;
-    for (const GeneratorRow& row : Generators()) names.push_back(row.name);
-    place.Refuse(fmt::format("one of {}", fmt::join(names, ", ")));
-  }
+  if (!id) place.Refuse(OneOf(Generators()));
   return *id;
 }
 
@@ -166,7 +158,7 @@ const FormOf<Campaign> kObjectiveForm = {
     [](const JsonPlace& place, Campaign& campaign) {
       campaign.objective = place.Text("the name of an objective");
       const Objective* objective = FindObjective(campaign.objective);
-      if (objective == nullptr) place.Refuse("one of " + NamesOf(Objectives()));
+      if (objective == nullptr) place.Refuse(OneOf(Objectives()));
       campaign.optimizer = objective->optimizer;  // until one is read
     },
     [](const Campaign& campaign) { return campaign.objective.empty() ? Json() : Json(campaign.objective); }};
@@ -175,7 +167,7 @@ const FormOf<Campaign> kOptimizerForm = {
     "text",
     [](const JsonPlace& place, Campaign& campaign) {
       campaign.optimizer = place.Text("the name of an optimizer");
-      if (FindOptimizer(campaign.optimizer) == nullptr) place.Refuse("one of " + NamesOf(Optimizers()));
+      if (FindOptimizer(campaign.optimizer) == nullptr) place.Refuse(OneOf(Optimizers()));
     },
     [](const Campaign& campaign) { return campaign.objective.empty() ? Json() : Json(campaign.optimizer); }};
 

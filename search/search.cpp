@@ -18,11 +18,9 @@
 #include "corpus/store/store_lock.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/testimony.h"
-#include "search/under_test/optimized_solver_unit.h"
 #include "search/under_test/solver_unit.h"
 #include "search/units/backlog.h"
 #include "search/units/finish.h"
-#include "search/units/finishing_time.h"
 #include "search/units/unit.h"
 #include "search/units/work_meter.h"
 
@@ -53,7 +51,7 @@ struct Worker {
     if (options.solver.empty())
       throw InputError(fmt::format("{}: found a search that tests {}, expected --solver FILE with it",
                                    options.store.string(), campaign.solver.name));
-    solver = std::make_unique<SolverProcess>(options.solver, SolverPatience{.stopped = stopped});
+    solver = std::make_unique<SolverProcess>(options.solver, stopped);
     if (solver->about() != campaign.solver)
       throw InputError(fmt::format("--solver: found {} {}, expected {} {}, which this search tests",
                                    solver->about().name, solver->about().version, campaign.solver.name,

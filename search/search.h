@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search: units and findings of a campaign, on all cores, into a store.
 //
-// Threads take the units of the shard in ascending order and, in turn, findings to finish (backlog.h), which
-// take a bounded share of their processor time (finishing_time.h). What the store holds in the end
-// depends on which units were run and on nothing else, but for which findings are finished already, and the
-// work that it took.
+// Threads take the units of the shard in ascending order and, in turn, findings to finish, which take a bounded
+// share of their processor time (backlog.h). What the store holds in the end depends on which units were run
+// and on nothing else, but for which findings are finished already, and the work that it took.
 
 #ifndef STICTION_SEARCH_SEARCH_H_
 #define STICTION_SEARCH_SEARCH_H_

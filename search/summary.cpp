@@ -58,34 +58,52 @@ Json RatesToJson(const Counts& counts) {
   return rates;
 }
 
-// ---- Of a search with an objective: its best, and no rates, since nothing was drawn at random ------
-
-struct Yield {
-  std::int64_t units = 0, evaluations = 0, confirmations = 0, denied = 0;
+// What is told of a store.
+struct Summed {
+  const Store& store;
+  Campaign campaign;
+  StoreTotals totals;
+  UnitElites yield;  // of a search with an objective, what its units cost; no elites
+  const Counts& counts() const { return totals.counts; }
 };
+using S = Summed;
 
-Yield YieldOf(const Store& store) {
-  Yield yield;
+Summed SummedOf(const Store& store, const std::string& file) {
+  Summed summed = {store, CampaignOf(store.identity(), file), TotalsOf(store), {}};
   for (const auto& [unit, text] : store.Elites()) {
     const UnitElites elites = ElitesFromText(text, fmt::format("elites of unit {}", unit));
-    ++yield.units;
-    yield.evaluations += elites.evaluations;
-    yield.confirmations += elites.confirmations;
-    yield.denied += elites.denied;
+    summed.yield.evaluations += elites.evaluations;
+    summed.yield.confirmations += elites.confirmations;
+    summed.yield.denied += elites.denied;
   }
-  return yield;
+  return summed;
 }
 
-// Representatives of loops.
-struct Kept {
-  std::int64_t finished = 0, pending = 0;
-};
-
-Kept KeptOf(const Store& store) {
-  Kept kept;
-  for (const Finding& finding : store.Findings()) ++(finding.done ? kept.finished : kept.pending);
-  return kept;
+Json RemarksToJson(const S& s) {
+  Json remarks = RemarksOf(s.store.identity());
+  return remarks.empty() ? Json() : remarks;
 }
+
+// Members of both searches.
+constexpr ToldOf<S> kSeed = {"seed", "integer", "", [](const S& s) -> Json { return s.campaign.seed; }};
+constexpr ToldOf<S> kUnits = {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }};
+constexpr ToldOf<S> kFamilies = {"families", "{tried: integer, of: integer, not_reached: [text]}",
+                                 "generators at numbers of contacts",
+                                 [](const S& s) { return FamiliesToJson(s.store); }};
+constexpr ToldOf<S> kFinished = {"finished", "integer", "",
+                                 [](const S& s) -> Json { return s.totals.finished; }};
+constexpr ToldOf<S> kPending = {"pending", "integer", "", [](const S& s) -> Json { return s.totals.pending; }};
+constexpr ToldOf<S> kBuilds = {"builds", "[text]", "that worked on it",
+                               [](const S& s) -> Json { return s.totals.work.builds; }};
+constexpr ToldOf<S> kMachines = {
+    "machines", "[text]", "that worked on it: processor, cores, memory, system; empty if none was recorded",
+    [](const S& s) -> Json { return s.totals.work.machines; }};
+constexpr ToldOf<S> kTimes = {"processor_seconds", "times", "",
+                              [](const S& s) { return TimeToJson(s.totals.work.time); }};
+constexpr ToldOf<S> kRemarks = {"remarks?", "{*: any}",
+                                "fields of the campaign that say nothing of what is done", RemarksToJson};
+
+// ---- Of a search with an objective: its best, and no rates, since nothing was drawn at random ------
 
 std::string ValueText(const Objective& objective, const Worth& worth) {
   if (!worth.value && !objective.of_loops) return "no value";
@@ -94,16 +112,7 @@ std::string ValueText(const Objective& objective, const Worth& worth) {
                      objective.unit);
 }
 
-// What is told of the store of a search with an objective.
-struct OptimizedStore {
-  const Store& store;
-  Campaign campaign;
-  Yield yield;
-  Kept kept;
-  Work work;
-};
-
-Json BestToJson(const OptimizedStore& s) {
+Json BestToJson(const S& s) {
   const Objective& objective = *FindObjective(s.campaign.objective);
   Json best = Json::array();
   for (const Elite& elite : BestOf(s.store, 1)) {
@@ -116,52 +125,38 @@ Json BestToJson(const OptimizedStore& s) {
   return best;
 }
 
-Json RemarksToJson(const Store& store) {
-  Json remarks = RemarksOf(store.identity());
-  return remarks.empty() ? Json() : remarks;
-}
-
-using O = OptimizedStore;
-constexpr auto kOptimizedMembers = std::to_array<ToldOf<O>>({
-    {"seed", "integer", "", [](const O& s) -> Json { return s.campaign.seed; }},
-    {"objective", "text", "", [](const O& s) -> Json { return s.campaign.objective; }},
-    {"optimizer", "text", "", [](const O& s) -> Json { return s.campaign.optimizer; }},
-    {"units", "integer", "", [](const O& s) -> Json { return s.yield.units; }},
-    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
-     [](const O& s) { return FamiliesToJson(s.store); }},
-    {"candidates", "integer", "", [](const O& s) -> Json { return s.yield.evaluations; }},
+constexpr auto kOptimizedMembers = std::to_array<ToldOf<S>>({
+    kSeed,
+    {"objective", "text", "", [](const S& s) -> Json { return s.campaign.objective; }},
+    {"optimizer", "text", "", [](const S& s) -> Json { return s.campaign.optimizer; }},
+    kUnits,
+    kFamilies,
+    {"candidates", "integer", "", [](const S& s) -> Json { return s.yield.evaluations; }},
     {"confirmations", "integer", "candidates whose value was confirmed exactly",
-     [](const O& s) -> Json { return s.yield.confirmations; }},
-    {"denied", "integer", "candidates whose value was not", [](const O& s) -> Json { return s.yield.denied; }},
+     [](const S& s) -> Json { return s.yield.confirmations; }},
+    {"denied", "integer", "candidates whose value was not", [](const S& s) -> Json { return s.yield.denied; }},
     {"best", "[{candidate: object, value: rounded | null, distance?: rounded}]", "", BestToJson},
-    {"finished", "integer", "", [](const O& s) -> Json { return s.kept.finished; }},
-    {"pending", "integer", "", [](const O& s) -> Json { return s.kept.pending; }},
-    {"builds", "[text]", "", [](const O& s) -> Json { return s.work.builds; }},
-    {"machines", "[text]", "", [](const O& s) -> Json { return s.work.machines; }},
-    {"processor_seconds", "times", "", [](const O& s) { return TimeToJson(s.work.time); }},
+    kFinished,
+    kPending,
+    kBuilds,
+    kMachines,
+    kTimes,
     {"groups?", "[{signature: text, kind: text, count: integer, facts: object}]",
      "findings of a solver under test, the smallest first",
-     [](const O& s) { return s.campaign.solver.name.empty() ? Json() : GroupsToJson(s.store); }},
-    {"remarks?", "{*: any}", "", [](const O& s) { return RemarksToJson(s.store); }},
+     [](const S& s) { return s.campaign.solver.name.empty() ? Json() : GroupsToJson(s.store); }},
+    kRemarks,
 });
 
 // ---- Of a search at random -------------------------------------------------------------------------
 
-struct SearchedStore {
-  const Store& store;
-  StoreTotals totals;
-
-  const Counts& counts() const { return totals.counts; }
-};
-
-Json GraveToJson(const SearchedStore& s) {
+Json GraveToJson(const S& s) {
   Json grave = Json::array();
   for (const Finding& finding : s.totals.grave)
     grave.push_back({{"signature", finding.signature}, {"kind", finding.kind}});
   return grave;
 }
 
-Json SimplestToJson(const SearchedStore& s) {
+Json SimplestToJson(const S& s) {
   Json simplest = Json::array();
   for (const Finding& finding : s.totals.simplest)
     simplest.push_back(
@@ -169,25 +164,21 @@ Json SimplestToJson(const SearchedStore& s) {
   return simplest;
 }
 
-using S = SearchedStore;
 constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
-    {"seed", "integer", "", [](const S& s) -> Json { return s.store.identity().seed; }},
+    kSeed,
     {"algorithm", "integer", "the version of what searches compute",
      [](const S& s) -> Json { return s.store.identity().algorithm; }},
-    {"builds", "[text]", "that worked on it", [](const S& s) -> Json { return s.totals.work.builds; }},
-    {"machines", "[text]", "that worked on it: processor, cores, memory, system; empty if none was recorded",
-     [](const S& s) -> Json { return s.totals.work.machines; }},
-    {"processor_seconds", "times", "", [](const S& s) { return TimeToJson(s.totals.work.time); }},
-    {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }},
+    kBuilds,
+    kMachines,
+    kTimes,
+    kUnits,
     {"problems", "integer", "", [](const S& s) -> Json { return s.totals.problems; }},
-    {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
-     [](const S& s) { return FamiliesToJson(s.store); }},
+    kFamilies,
     {"runs", "integer", "problems, each under every policy",
      [](const S& s) -> Json { return s.counts().runs; }},
     {"failures", "counters",
      "runs that fail in exact arithmetic, by outcome; doubles-differ: doubles end otherwise than exact "
-     "arithmetic; "
-     "wrong-answer: doubles call solved what is not",
+     "arithmetic; wrong-answer: doubles call solved what is not",
      [](const S& s) -> Json { return FailuresOf(s.counts()); }},
     {"groups", "counters", "how many different findings of each kind",
      [](const S& s) -> Json { return s.totals.groups; }},
@@ -196,8 +187,8 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"rates_are_lower_bounds", "truth",
      "whether not every run was exact, so that some loops may have been taken for solutions",
      [](const S& s) -> Json { return s.counts().audited + s.counts().suspicious < s.counts().runs; }},
-    {"finished", "integer", "", [](const S& s) -> Json { return s.totals.finished; }},
-    {"pending", "integer", "", [](const S& s) -> Json { return s.totals.pending; }},
+    kFinished,
+    kPending,
     {"finished_loops", "integer", "loops that are minimized, with their outcomes over the policy grid",
      [](const S& s) -> Json { return s.totals.finished_loops; }},
     {"whole_grid", "integer", "findings that loop under every policy of the planar grid",
@@ -225,8 +216,7 @@ constexpr auto kSummaryMembers = std::to_array<ToldOf<S>>({
     {"grave", "[{signature: text, kind: text}]", "findings that cannot be, if what is proved is right",
      GraveToJson},
     {"minimized", "[{signature: text, facts: facts}]", "", SimplestToJson},
-    {"remarks?", "{*: any}", "fields of the campaign that say nothing of what is done",
-     [](const S& s) { return RemarksToJson(s.store); }},
+    kRemarks,
 });
 
 }  // namespace
@@ -257,15 +247,14 @@ ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
 }
 
 Json SummaryToJson(const Store& store) {
-  Campaign campaign = CampaignOf(store.identity(), "summary");
+  const Campaign campaign = CampaignOf(store.identity(), "summary");
   Json summary;
-  if (campaign.objective.empty() && !campaign.solver.name.empty()) {
+  if (!campaign.objective.empty()) {
+    WriteTold<S>(kOptimizedMembers, SummedOf(store, "summary"), summary);
+  } else if (!campaign.solver.name.empty()) {
     summary = SolverToJson(store);
-  } else if (campaign.objective.empty()) {
-    WriteTold<S>(kSummaryMembers, {store, TotalsOf(store)}, summary);
   } else {
-    WriteTold<O>(kOptimizedMembers,
-                 {store, std::move(campaign), YieldOf(store), KeptOf(store), store.TotalWork()}, summary);
+    WriteTold<S>(kSummaryMembers, SummedOf(store, "summary"), summary);
   }
   if (!IsUtf8(summary)) {
     throw InputError(
@@ -275,7 +264,7 @@ Json SummaryToJson(const Store& store) {
 }
 
 std::string ShapeOfSummary() { return ShapeOf<S>(kSummaryMembers); }
-std::string ShapeOfOptimized() { return ShapeOf<O>(kOptimizedMembers); }
+std::string ShapeOfOptimized() { return ShapeOf<S>(kOptimizedMembers); }
 std::string ShapeOfTimes() {
   std::string members;
   ForEachPart(ProcessorTime{}, [&members](const char* name, const char* meaning, std::int64_t) {
@@ -285,14 +274,14 @@ std::string ShapeOfTimes() {
 }
 
 std::string OptimizedText(const Store& store, const std::string& file) {
-  const Campaign campaign = CampaignOf(store.identity(), file);
+  const Summed summed = SummedOf(store, file);
+  const Campaign& campaign = summed.campaign;
   const Objective& objective = *FindObjective(campaign.objective);
-  const Yield yield = YieldOf(store);
+  const UnitElites& yield = summed.yield;
   std::string text = fmt::format(
-      "{}: {} in {}, seed {}\n  objective {}, {}: {}\n  optimizer {}: {}, which "
-      "denied "
-      "{} of doubles\n",
-      file, Counted(yield.evaluations, "candidate"), Counted(yield.units, "unit"), campaign.seed,
+      "{}: {} in {}, seed {}\n  objective {}, {}: {}\n"
+      "  optimizer {}: {}, which denied {} of doubles\n",
+      file, Counted(yield.evaluations, "candidate"), Counted(summed.totals.units, "unit"), campaign.seed,
       objective.name, objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
       Counted(yield.confirmations, "exact run"), Counted(yield.denied, "value"));
   const Json remarks = RemarksOf(store.identity());
@@ -300,7 +289,7 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   for (const BestLine& best : BestLines(store))
     text += fmt::format("  {:18} {}, mu = {}: {}\n", best.generator, Counted(best.contacts, "contact"), best.mu,
                         best.value);
-  const Kept kept = KeptOf(store);
+  const StoreTotals& kept = summed.totals;
   const bool tests = !campaign.solver.name.empty();
   text += fmt::format("  {} of {} kept, {} of them {} and minimized\n", tests ? "failures" : "loops",
                       Counted(kept.finished + kept.pending, "group"), kept.finished,
@@ -309,8 +298,7 @@ std::string OptimizedText(const Store& store, const std::string& file) {
   if (kept.pending > 0)
     text += fmt::format("  what is to go is finished by: {}\n",
                         tests ? FinishTestedCommand(file) : FinishCommand(file));
-  if (const std::string time = TimeText(store.TotalWork().time); !time.empty())
-    text += fmt::format("  {}\n", time);
+  if (const std::string time = TimeText(kept.work.time); !time.empty()) text += fmt::format("  {}\n", time);
   text += fmt::format(
       "The best as a problem file: {1} problem {0} --best -o best.json; all: {1} report {0} -o report. More "
       "--minutes or --problems go on from here.\n",

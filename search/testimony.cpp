@@ -18,9 +18,7 @@
 namespace stiction {
 namespace {
 
-bool IsOutcome(std::string_view text) {
-  return std::find(kOutcomeNames.begin(), kOutcomeNames.end(), text) != kOutcomeNames.end();
-}
+bool IsOutcome(std::string_view text) { return std::ranges::count(kOutcomeNames, text) > 0; }
 
 bool IsKind(std::string_view text) {
   return text == kSafeCycle || text == kDisagreementOfMethods || text == "wrong-answer" ||
@@ -165,6 +163,16 @@ bool IsFriction(const std::string& name, const Campaign& campaign) {
          });
 }
 
+// Of a tally: the campaign has its generator and number of contacts.
+void RequireFamily(const Witness& witness, const std::string& generator, int contacts,
+                   const Campaign& campaign) {
+  const auto id = FindGenerator(generator);
+  witness.RequireOneOf("generator", generator, id && std::ranges::count(campaign.generators, *id) > 0,
+                       "one of the campaign's");
+  witness.Require(std::ranges::count(campaign.contacts, contacts) > 0, "contacts", std::to_string(contacts),
+                  "one of the campaign's");
+}
+
 // What strata count adds up to what the tally counts.
 void RequireStrata(const Witness& witness, const TallyKey& key, const Tally& tally, const Campaign& campaign) {
   Stratum sum;
@@ -190,14 +198,7 @@ void RequireStrata(const Witness& witness, const TallyKey& key, const Tally& tal
 void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campaign, const std::string& file) {
   const Witness witness(fmt::format("{}: statistics of {} of {} contacts, {}", file, Shortened(key.generator),
                                     key.contacts, Shortened(key.policy)));
-  const auto generator = FindGenerator(key.generator);
-  const auto& all = campaign.generators;
-  witness.RequireOneOf("generator", key.generator,
-                       generator && std::find(all.begin(), all.end(), *generator) != all.end(),
-                       "one of the campaign's");
-  const auto& sizes = campaign.contacts;
-  witness.Require(std::find(sizes.begin(), sizes.end(), key.contacts) != sizes.end(), "contacts",
-                  std::to_string(key.contacts), "one of the campaign's");
+  RequireFamily(witness, key.generator, key.contacts, campaign);
   RequirePolicy(witness, key.policy, campaign);
   witness.RequireOneOf("method", key.method, key.method == "baraff", "baraff");
   witness.RequireOneOf("arithmetic", key.arithmetic, key.arithmetic == Name(campaign.arithmetic),
@@ -222,15 +223,8 @@ void RequireTally(const TallyKey& key, const Tally& tally, const Campaign& campa
 // Every problem came to one end, but for leaks, which are seen beside it.
 void RequireUnderTest(const Witness& witness, const UnderTestKey& key, const UnderTestTally& tally,
                       const Campaign& campaign) {
-  const auto generator = FindGenerator(key.generator);
-  const auto& all = campaign.generators;
-  witness.RequireOneOf("generator", key.generator,
-                       generator && std::find(all.begin(), all.end(), *generator) != all.end(),
-                       "one of the campaign's");
+  RequireFamily(witness, key.generator, key.contacts, campaign);
   witness.RequireOneOf("friction", key.friction, IsFriction(key.friction, campaign), "one of the campaign's");
-  const auto& sizes = campaign.contacts;
-  witness.Require(std::find(sizes.begin(), sizes.end(), key.contacts) != sizes.end(), "contacts",
-                  std::to_string(key.contacts), "one of the campaign's");
   std::int64_t ends = 0;
   ForEachCounter(tally, [&ends](std::string_view name, std::int64_t count) {
     const bool is_beside = name == "leak" || name == "misses_coulomb" || name == "neither";
@@ -306,7 +300,7 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
                   "what the campaign leaves");
   for (const auto& [key, tally] : total.under_test) RequireUnderTest(witness, key, tally, campaign);
   const auto is_size = [&campaign](int contacts) {
-    return std::find(campaign.contacts.begin(), campaign.contacts.end(), contacts) != campaign.contacts.end();
+    return std::ranges::count(campaign.contacts, contacts) > 0;
   };
   for (const auto& [contacts, tally] : total.existence) {
     witness.Require(is_size(contacts), "existence", fmt::format("{} contacts", contacts),

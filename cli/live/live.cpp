@@ -9,7 +9,6 @@
 
 #include "certify/exact/inexact.h"
 #include "cli/narration/followed.h"
-#include "cli/narration/replay_page.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "solver/published/published_space.h"
@@ -65,13 +64,10 @@ Solution SolvePublishedInSpace(const ExactProblem& problem, const Request& reque
   }
 }
 
-FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
-  Request request{.method = path.method, .trace = true};
-  request.policy = ParsePolicy(path.policy);
-  request.limits = path.limits;
-  if (file.problem.dimension() == 2 || path.method != "baraff")
-    return Followed(path, file, {.answer = SolveExactly(file.problem, request)});
-  FollowedRun run = Followed(path, file, SolvePublishedInSpace(file.problem, request));
+FollowedRun Run(const Request& request, const ProblemFile& file) {
+  if (file.problem.dimension() == 2 || request.method != "baraff")
+    return Followed(request, file, {.answer = SolveExactly(file.problem, request)});
+  FollowedRun run = Followed(request, file, SolvePublishedInSpace(file.problem, request));
   run.end += "; over doubles alone: stiction replay says what is proved";
   return run;
 }
@@ -79,12 +75,14 @@ FollowedRun Run(const PathOptions& path, const ProblemFile& file) {
 Json RunToJson(const JsonPlace& place) {
   const ProblemFile file = ParseProblem(place.Required("problem", "text").Text("text"), "problem");
   RequireFew(file);
-  PathOptions path{.method = place.Required("method", "text").Text("text"),
-                   .policy = place.Required("policy", "text").Text("text"),
-                   .limits = kLiveLimits};
-  std::vector<FollowedRun> runs = {Run(path, file)};
-  path.method = "complete";
-  if (runs[0].replay["method"] != path.method) runs.push_back(Run(path, file));
+  const std::string method = place.Required("method", "text").Text("text");
+  Request request{.method = method,
+                  .policy = ParsePolicy(place.Required("policy", "text").Text("text")),
+                  .limits = kLiveLimits,
+                  .trace = true};
+  std::vector<FollowedRun> runs = {Run(request, file)};
+  request.method = "complete";
+  if (method != request.method) runs.push_back(Run(request, file));
   return {{"data", ReplayPageData(file, nullptr, runs)}};
 }
 

@@ -7,23 +7,19 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/solve.h"
-#include "cli/narration/outcome_text.h"
-#include "cli/narration/replay_page.h"
+#include "cli/narration/narrate.h"
+#include "corpus/json.h"
 #include "corpus/record/loop_sentence.h"
 
 namespace stiction {
 
-struct PathOptions {
-  std::string method = "baraff";
-  std::string policy = "paper";  // of the published algorithm
-  Limits limits;
-};
-
 // Requires a path method.
-Narration Narrate(const std::string& method, const ProblemFile& file, const Solution& solution,
+Narration Narrate(std::string_view method, const ProblemFile& file, const Solution& solution,
                   const Telling& how);
 
 // "cycle: the state after 3 drives recurs 4 drives later, for ever"
@@ -33,13 +29,28 @@ std::string EndText(const End& end, bool proved) {
   return "cycle: after rounding, " + LoopClause({ProofKind::kStates, end.start, end.period});
 }
 
-// What `replay --json` prints; `initial`: with --step, which tells forces and accelerations before the first
-// step.
-Json ReplayToJson(const PathOptions& o, const ProblemFile& file, const Solution& solution, Narration narration,
+// What `replay --json` prints of the run that was asked for; `initial`: with --step, which tells forces and
+// accelerations before the first step.
+Json ReplayToJson(const Request& asked, const ProblemFile& file, const Solution& solution, Narration narration,
                   bool initial);
 
+struct FollowedRun {
+  std::string title;
+  Json replay;          // as --step --json prints it
+  Narration narration;  // with vectors
+  std::string end;      // how it ended, in words
+  // Of the published algorithm over rationals in the plane: where the other readings of a switch leave its
+  // path. One switch at a time, in table order: the first step at which the runs part, and how the other one
+  // ends; values that leave the path nowhere are left out.
+  Json partings = Json::array();
+};
+
 // A run for the viewer. InputError for one of more steps than a page has room for.
-FollowedRun Followed(const PathOptions& o, const ProblemFile& file, const Solution& solution);
+FollowedRun Followed(const Request& asked, const ProblemFile& file, const Solution& solution);
+
+// Runs on one problem, as the viewer wants them: reports/web/data.md has the keys. `picture`:
+// reports/pictures/problem_picture.h, or null.
+Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vector<FollowedRun>& runs);
 
 }  // namespace stiction
 

@@ -216,17 +216,12 @@ class BaraffNarrator {
     return slips ? name + " along " + List(step.recorded[names_.layout().ContactOf(row)]) : name;
   }
 
-  struct SetMembers {
-    std::string set;
-    std::vector<std::string> members;
-  };
-
   // Sets in the paper's names, with their members; the program's own only where they have any.
-  std::vector<SetMembers> SetsOf(const Step& step) const {
+  std::vector<std::pair<std::string, std::vector<std::string>>> SetsOf(const Step& step) const {
     using Names = std::vector<const char*>;
     static const Names plane = {"C", "NC", "CF", "NC-", "NC+", "suspended"},
                        space = {"C", "NC", "CF", "NCF", "half"};
-    std::vector<SetMembers> sets;
+    std::vector<std::pair<std::string, std::vector<std::string>>> sets;
     for (const std::string set : names_.in_space() ? space : plane) {
       std::vector<std::string> members;
       for (int row = 0; row < static_cast<int>(step.sets.size()); ++row) {

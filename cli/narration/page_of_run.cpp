@@ -5,7 +5,7 @@
 
 #include "certify/exact/exact.h"
 #include "cli/narration/followed.h"
-#include "cli/narration/over_intervals.h"
+#include "cli/narration/published_ends.h"
 
 namespace stiction {
 namespace {
@@ -23,16 +23,15 @@ bool EveryPolicyEndsSo(const ProblemFile& file, const Solution& solution, const 
 
 Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
                const Solution& solution, const std::optional<InexactAnswer>& over_intervals) {
-  const auto path = [](const Wanted& o) { return PathOptions{o.method, o.policy, o.request.limits}; };
-  std::vector<FollowedRun> runs = {Followed(path(wanted), file, solution)};
-  if (over_intervals) TellOverIntervals(*over_intervals, runs[0]);
+  std::vector<FollowedRun> runs = {Followed(PathRequestOf(wanted, file.problem, source), file, solution)};
+  if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
   Wanted beside = wanted;
   beside.method = "complete";
   beside.arithmetic = "";
   beside.policy = Wanted().policy;
   if (wanted.method != beside.method) {
     const Request request = PathRequestOf(beside, file.problem, source);
-    runs.push_back(Followed(path(beside), file, SolveAsked(file.problem, request, source)));
+    runs.push_back(Followed(request, file, SolveAsked(file.problem, request, source)));
   }
   Json data = ReplayPageData(file, picture, runs);
   if (EveryPolicyEndsSo(file, solution, wanted.request.limits)) data["every_policy"] = true;

@@ -105,8 +105,7 @@ std::string SafetySentence(const Json& safety) {
            "algorithm under apex=suspended, ties apart, nothing to give up";
   if (!safety.contains("weakly_safe"))
     return "unsafe: the determinant of a word is zero or negative; where one is negative, complete driving may "
-           "fold, "
-           "and the published algorithm give up";
+           "fold, and the published algorithm give up";
   if (safety["weakly_safe"] == true)
     return fmt::format(
         "weakly safe: the determinants of {} are zero, and none is negative; complete driving neither "

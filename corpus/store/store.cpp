@@ -165,12 +165,8 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   // machine that loses its power.
   Execute("PRAGMA journal_mode = WAL");
   Execute("PRAGMA synchronous = NORMAL");
-  const auto stored = ReadIdentity();
-  if (!stored)
-    throw InputError(fmt::format(
-        "{}: found no campaign in it, expected a store: a file that stiction search writes", file.string()));
-  identity_ = *stored;
-  if (*stored == identity) {
+  identity_ = ReadIdentity(file);
+  if (identity_ == identity) {
     RequireSound();
     if (identity.remarks.empty() || identity.remarks == identity_.remarks) return;
     Transaction transaction(db_.get());
@@ -180,8 +176,8 @@ Store::Store(const fs::path& file, const CampaignIdentity& identity) {
   }
   throw InputError(
       fmt::format("{}: holds another search: {}; search with {}, or with --store NEW_FILE", file.string(),
-                  Difference(*stored, identity),
-                  stored->algorithm == identity.algorithm ? "the same options" : "a build of that version"));
+                  Difference(identity_, identity),
+                  identity_.algorithm == identity.algorithm ? "the same options" : "a build of that version"));
 }
 
 // In a folder of its own first: a store is never half made, and no file that came meanwhile is overwritten.
@@ -243,11 +239,7 @@ Store Store::Snapshot(sqlite3* db, const fs::path& file) {
   Store store(db);
   store.Execute("PRAGMA writable_schema = ON");  // reads a file that ends too early, too, as far as it goes
   store.Execute("BEGIN");
-  const auto identity = store.ReadIdentity();
-  if (!identity)
-    throw InputError(fmt::format(
-        "{}: found no campaign in it, expected a store: a file that stiction search writes", file.string()));
-  store.identity_ = *identity;
+  store.identity_ = store.ReadIdentity(file);
   return store;
 }
 
@@ -321,14 +313,17 @@ void Store::TakeRemarks(const std::string& remarks) {
 }
 
 // Its version first: a store of another one has other rows.
-std::optional<CampaignIdentity> Store::ReadIdentity() const {
+CampaignIdentity Store::ReadIdentity(const fs::path& name) const {
   const std::string file = StoreName(db_.get());
-  Statement table(db_.get(), "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'campaign'");
-  if (!table.Step()) return std::nullopt;
   std::map<std::string, std::string> values;
-  Statement rows(db_.get(), "SELECT key, value FROM campaign");
-  while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
-  if (values.empty()) return std::nullopt;
+  Statement table(db_.get(), "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'campaign'");
+  if (table.Step()) {
+    Statement rows(db_.get(), "SELECT key, value FROM campaign");
+    while (rows.Step()) values[rows.Text(0)] = rows.Text(1);
+  }
+  if (values.empty())
+    throw InputError(fmt::format(
+        "{}: found no campaign in it, expected a store: a file that stiction search writes", name.string()));
   if (values["format"] != kStoreFormat || values["version"] != std::to_string(kStoreVersion))
     RefuseVersion(file, values);
   const std::string stored = values["seal"];
@@ -339,11 +334,11 @@ std::optional<CampaignIdentity> Store::ReadIdentity() const {
                     "what it is of cannot be told",
                     file, seal, stored));
   }
-  return CampaignIdentity{
-      values["definition"],
-      NumberOf<std::uint64_t>(file, "seed", values["seed"], "an integer from 0 to 2^64 - 1"),
-      values["policies"], NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm"),
-      values["remarks"]};
+  return {values["definition"],
+          NumberOf<std::uint64_t>(file, "seed", values["seed"], "an integer from 0 to 2^64 - 1"),
+          values["policies"],
+          NumberOf<int>(file, "algorithm", values["algorithm"], "a version of the algorithm"),
+          values["remarks"]};
 }
 
 // Pages that SQLite cannot reach any more hide rows without a word.
@@ -383,18 +378,15 @@ UnitSet Store::Units() const {
   UnitSet units;
   Statement open(db_.get(), "SELECT unit FROM units");
   while (open.Step()) units.AddUnit(ReadUnit(open, 0));
-  for (const BlockInfo& info : Blocks()) units.AddBlock(info.shard, info.block);
+  for (const auto& [shard, block] : Blocks()) units.AddBlock(shard, block);
   return units;
 }
 
 void Store::InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record) {
   STICTION_CHECK(shard.Owns(unit),
                  fmt::format("unit {} is not of shard {}/{}", unit, shard.index, shard.count));
-  Statement present(db_.get(),
-                    "SELECT 1 FROM units WHERE unit = ? UNION ALL "
-                    "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
-  present.Bind(unit).Bind(shard);
-  if (present.Bind(BlockOf(shard, unit)).Step()) {
+  Statement alone(db_.get(), "SELECT 1 FROM units WHERE unit = ?");
+  if (alone.Bind(unit).Step() || HoldsBlock(db_.get(), shard, BlockOf(shard, unit))) {
     throw InputError(
         fmt::format("{}: holds unit {} already; does another search work on the same store and shard?",
                     StoreName(db_.get()), unit));
@@ -462,19 +454,15 @@ void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
   if (!last.Bind(FirstUnit(shard, block) + (kUnitsPerBlock - 1) * shards).Bind(shards).Step()) return;
   if (CountUnits(shard, block) < kUnitsPerBlock) return;
   const std::string of_block = " WHERE shards = ? AND shard = ? AND block = ?";
-  const auto bind = [&](Statement& statement) -> Statement& { return statement.Bind(shard).Bind(block); };
   Record sum;
   Statement records(db_.get(), "SELECT record FROM units" + of_block);
-  bind(records);
+  records.Bind(shard).Bind(block);
   while (records.Step()) sum.Merge(ParseRecord(records.Text(0), "record of a unit"));
   Work work;
   Statement works(db_.get(), SelectFrom("work", of_block));
-  bind(works);
+  works.Bind(shard).Bind(block);
   while (works.Step()) work.Add(ReadWorkRow(works));
-  for (const char* table : {"units", "work"}) {
-    Statement remove(db_.get(), fmt::format("DELETE FROM {}{}", table, of_block));
-    bind(remove).Step();
-  }
+  RemoveUnits(db_.get(), shard, block);
   PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, Serialize(sum)});
   WriteWork(db_.get(), {shard, block}, work);
 }
@@ -491,8 +479,7 @@ std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
   Statement shards(db, "SELECT DISTINCT shards, shard FROM blocks");
   while (shards.Step()) {
     const Shard shard = ReadShard(shards);
-    Statement closed(db, "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
-    if (shard.Owns(unit) && closed.Bind(shard).Bind(BlockOf(shard, unit)).Step())
+    if (shard.Owns(unit) && HoldsBlock(db, shard, BlockOf(shard, unit)))
       return WorkKey{shard, BlockOf(shard, unit)};
   }
   return std::nullopt;
@@ -549,12 +536,10 @@ Work Store::TotalWork() const {
   return total;
 }
 
-std::vector<Store::BlockInfo> Store::Blocks() const {
+std::vector<std::pair<Shard, std::int64_t>> Store::Blocks() const {
   Statement rows(db_.get(), "SELECT shards, shard, block FROM blocks ORDER BY shards, shard, block");
-  std::vector<BlockInfo> blocks;
-  while (rows.Step()) {
-    blocks.push_back({ReadShard(rows), ReadBlock(rows, 2)});
-  }
+  std::vector<std::pair<Shard, std::int64_t>> blocks;
+  while (rows.Step()) blocks.emplace_back(ReadShard(rows), ReadBlock(rows, 2));
   return blocks;
 }
 

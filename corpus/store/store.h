@@ -154,11 +154,7 @@ class Store {
   // What it took.
   Work TotalWork() const;
 
-  struct BlockInfo {
-    Shard shard;
-    std::int64_t block;
-  };
-  std::vector<BlockInfo> Blocks() const;
+  std::vector<std::pair<Shard, std::int64_t>> Blocks() const;
 
   // Takes all of another store's units and findings in. Requires the same identity, and no unit in both unless
   // as the same block; a block in both with different content is an InternalError that names it.
@@ -183,7 +179,7 @@ class Store {
   void CreateTables();
   void WriteIdentity(const CampaignIdentity& identity);
   void TakeRemarks(const std::string& remarks);
-  std::optional<CampaignIdentity> ReadIdentity() const;
+  CampaignIdentity ReadIdentity(const std::filesystem::path& file) const;
   void RequireSound() const;
   void InsertUnit(const Shard& shard, std::int64_t unit, const std::string& record);
   bool Holds(std::int64_t unit) const;
@@ -193,6 +189,7 @@ class Store {
   void MergeFinding(const Finding& finding);
   void MergeElites(std::int64_t unit, const std::string& elites);
   void MergeWork(const Statement& row);
+  void BeginMerge(const Store& other);
   void MergeRow(std::string_view table, const Statement& row);
   void SalvageTable(const StoreTable& table, const Store& other, std::vector<std::string>& left_out);
   std::string SalvageRow(const StoreTable& table, const Store& other, const Statement& row);

@@ -16,12 +16,17 @@
 
 namespace stiction {
 
-void Store::MergeFrom(const Store& other) {
+// In a transaction.
+void Store::BeginMerge(const Store& other) {
   if (other.identity_ != identity_) {
     throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
   }
-  Transaction transaction(db_.get());
   if (identity_.remarks.empty() && !other.identity_.remarks.empty()) TakeRemarks(other.identity_.remarks);
+}
+
+void Store::MergeFrom(const Store& other) {
+  Transaction transaction(db_.get());
+  BeginMerge(other);
   for (const StoreTable& table : StoreTables()) {
     Statement rows(other.db_.get(), SelectFrom(table.name, ""));
     while (rows.Step()) MergeRow(table.name, rows);
@@ -56,11 +61,6 @@ std::vector<int> ShardCounts(sqlite3* db) {
     if (!next.Bind(std::int64_t{last}).Step()) return counts;
     counts.push_back(static_cast<int>(next.Integer(0)));
   }
-}
-
-bool HoldsBlock(sqlite3* db, const Shard& shard, std::int64_t block) {
-  Statement present(db, "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
-  return present.Bind(shard).Bind(block).Step();
 }
 
 // Whether a block of so many shards has a unit.
@@ -108,11 +108,7 @@ void Store::MergeBlock(const Shard& shard, std::int64_t block, const std::string
                                                        shard.index, shard.count));
     return;
   }
-  for (const char* table : {"units", "work"}) {
-    Statement remove(db_.get(),
-                     fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table));
-    remove.Bind(shard).Bind(block).Step();
-  }
+  RemoveUnits(db_.get(), shard, block);
   RequireNoneOf(db_.get(), shard, block);
   PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, record});
 }
@@ -125,8 +121,7 @@ void Store::MergeUnit(const Shard& shard, std::int64_t unit, const std::string& 
       STICTION_CHECK(same.Text(0) == record, fmt::format("two copies of unit {} differ", unit));
       return;
     }
-    Statement closed(db_.get(), "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
-    if (closed.Bind(shard).Bind(BlockOf(shard, unit)).Step()) return;
+    if (HoldsBlock(db_.get(), shard, BlockOf(shard, unit))) return;
     RefuseTwice(unit);
   }
   InsertUnit(shard, unit, record);
@@ -185,12 +180,9 @@ StoreValue KeyOf(const StoreTable& table, const Statement& row) {
 
 std::vector<std::string> Store::Salvage(const std::filesystem::path& file) {
   const Store other = OpenUnchecked(file);
-  if (other.identity_ != identity_) {
-    throw InputError("merge: the stores hold different campaigns: " + Difference(other.identity_, identity_));
-  }
   std::vector<std::string> left_out;
   Transaction transaction(db_.get());
-  if (identity_.remarks.empty() && !other.identity_.remarks.empty()) TakeRemarks(other.identity_.remarks);
+  BeginMerge(other);
   for (const StoreTable& table : StoreTables()) SalvageTable(table, other, left_out);
   CloseBlocksOf(*this);  // the other may not be read to its end
   transaction.Commit();

@@ -277,6 +277,19 @@ void WriteWork(sqlite3* db, const WorkKey& key, const Work& work) {
           JsonText(times)});
 }
 
+bool HoldsBlock(sqlite3* db, const Shard& shard, std::int64_t block) {
+  Statement present(db, "SELECT 1 FROM blocks WHERE shards = ? AND shard = ? AND block = ?");
+  return present.Bind(shard).Bind(block).Step();
+}
+
+void RemoveUnits(sqlite3* db, const Shard& shard, std::int64_t block) {
+  for (const char* table : {"units", "work"})
+    Statement(db, fmt::format("DELETE FROM {} WHERE shards = ? AND shard = ? AND block = ?", table))
+        .Bind(shard)
+        .Bind(block)
+        .Step();
+}
+
 std::int64_t BlockOf(const Shard& shard, std::int64_t unit) {
   return (unit - shard.index) / shard.count / Store::kUnitsPerBlock;
 }

@@ -109,6 +109,10 @@ WorkKey ReadWorkKey(const Statement& row);       // likewise
 Work ReadWork(sqlite3* db, const WorkKey& key);  // empty if there is none
 void WriteWork(sqlite3* db, const WorkKey& key, const Work& work);
 
+bool HoldsBlock(sqlite3* db, const Shard& shard, std::int64_t block);
+// The units of a block and their work, which the whole block takes the place of.
+void RemoveUnits(sqlite3* db, const Shard& shard, std::int64_t block);
+
 // The block of a shard that has this unit.
 std::int64_t BlockOf(const Shard& shard, std::int64_t unit);
 std::int64_t FirstUnit(const Shard& shard, std::int64_t block);

@@ -49,8 +49,7 @@ Candidate RandomCandidate(const Candidate& like, std::uint64_t seed) {
   Choices choices(seed, &made);
   ContactProblem<double> problem;
   Generate<double, Eigen::Dynamic>(like.generator, like.contacts, SurroundingsOf(like), choices, problem);
-  candidate.choices.clear();
-  for (const Choice& choice : made) candidate.choices.push_back(choice.value);
+  candidate.choices = ValuesOf(made);
   return candidate;
 }
 

@@ -73,7 +73,7 @@ Optimized Continue(const Optimization& optimization) {
   Choices& random = attempt.random();
   attempt.Begin();
   while (!attempt.Ended()) {
-    const Assessed from = random.Integer(0, 1) == 0 ? attempt.elites().Best() : attempt.elites().Draw(random);
+    const Assessed from = random.Integer(0, 1) == 0 ? attempt.Best() : attempt.Draw();
     if (optimization.objective->lowers_friction && from.worth.value && random.Integer(0, 15) == 0)
       LowerFriction(attempt, from.candidate);
     const std::vector<std::size_t> wide = WideChoices(from.made);

@@ -50,9 +50,9 @@ class Cube {
   }
 
   double Value(const std::vector<double>& x) {
-    const Assessed assessed = attempt_.assessor().Look(At(x));
+    const Assessed assessed = attempt_.Look(At(x));
     const Worth worth = assessed.worth;
-    attempt_.elites().Admit(assessed);
+    attempt_.Admit(assessed);
     if (worth.value) return *worth.value;
     return -1e15 + 1e9 * std::max(worth.nearness, -1e3);
   }
@@ -125,7 +125,7 @@ Optimized OptimizeContinuously(const Optimization& optimization) {
   attempt.Begin();
   const std::int64_t each = std::max<std::int64_t>(200, optimization.evaluations / 16);
   for (std::size_t turn = 0; !attempt.Ended(); ++turn) {
-    const Assessed from = turn % 2 == 0 ? attempt.elites().Draw(attempt.random()) : attempt.elites().Best();
+    const Assessed from = turn % 2 == 0 ? attempt.Draw() : attempt.Best();
     const std::int64_t before = attempt.Left();
     if (Cube(attempt, from).coordinates() > 0)
       Optimize(attempt, kMethods[turn % kMethods.size()], from, std::min(each, attempt.Left()));

@@ -87,11 +87,10 @@ Optimized Evolve(const Optimization& optimization) {
       attempt.Try(attempt.Random());
       continue;
     }
-    const Assessed parent = attempt.elites().Draw(random);
+    const Assessed parent = attempt.Draw();
     Candidate child = parent.candidate;
     if (random.Integer(0, 7) == 0) {
-      child.choices =
-          Crossed(child.choices, attempt.elites().Draw(random).candidate.choices, child.contacts, random);
+      child.choices = Crossed(child.choices, attempt.Draw().candidate.choices, child.contacts, random);
     } else {
       child.choices = Mutant(parent.made, random);
     }

@@ -19,13 +19,8 @@ int SignificantDigits(std::int64_t value) {
   return digits;
 }
 
-struct Plainness {
-  int contacts = 0;
-  std::size_t choices = 0;
-  std::int64_t digits = 0, magnitude = 0;
-
-  auto operator<=>(const Plainness&) const = default;
-};
+// Contacts, choices, significant digits of all choices, and the sum of their sizes.
+using Plainness = std::array<std::int64_t, 4>;
 
 class CandidateMinimizer {
  public:
@@ -53,10 +48,10 @@ class CandidateMinimizer {
   }
 
   static Plainness PlainnessOf(const Candidate& clamped) {
-    Plainness plainness{clamped.contacts, clamped.choices.size()};
+    Plainness plainness{clamped.contacts, std::ssize(clamped.choices)};
     for (const std::int64_t value : clamped.choices) {
-      plainness.digits += SignificantDigits(value);
-      plainness.magnitude += std::abs(value);
+      plainness[2] += SignificantDigits(value);
+      plainness[3] += std::abs(value);
     }
     return plainness;
   }
@@ -123,7 +118,7 @@ class CandidateMinimizer {
   const std::function<bool(const Candidate&)>& keep_;
   const std::function<bool()>& cancelled_;
   std::vector<Choice> made_;
-  Plainness plainness_;
+  Plainness plainness_ = {};
   MinimizedCandidate result_;
 };
 

@@ -11,6 +11,7 @@
 #include "certify/exact/enumerate.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
+#include "corpus/named_rows.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 
@@ -23,48 +24,28 @@ constexpr int kMostContactsEnumerated = 4;
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-struct Text {
-  std::string_view name, help, unit;
-  int sign = 1;
-};
-
 // Of any run: `value` of a trial over either kind of numbers.
 template <class F>
-constexpr Objective OfRuns(const Text& text, F) {
-  return {text.name,
-          text.help,
-          text.unit,
-          text.sign,
-          false,
-          false,
-          false,
-          [](InexactTrial& trial) -> Value { return F{}(trial); },
-          [](ExactTrial& trial) -> Value { return F{}(trial); }};
+Objective OfRuns(Objective row, F) {
+  row.inexact = [](InexactTrial& trial) -> Value { return F{}(trial); };
+  row.exact = [](ExactTrial& trial) -> Value { return F{}(trial); };
+  return row;
 }
 
 // Of loops.
 template <class F>
-constexpr Objective OfLoops(const Text& text, F value) {
-  Objective objective = OfRuns(text, value);
-  objective.of_loops = true;
-  objective.inexact = [](InexactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
-  objective.exact = [](ExactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
-  return objective;
+Objective OfLoops(Objective row, F) {
+  row.of_loops = true;
+  row.inexact = [](InexactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
+  row.exact = [](ExactTrial& trial) -> Value { return trial.Loops() ? Value(F{}(trial)) : Value(); };
+  return row;
 }
 
 // Of rationals alone.
 template <class F>
-constexpr Objective Exactly(const Text& text, F) {
-  return {text.name, text.help, text.unit,
-          text.sign, false,     false,
-          false,     nullptr,   [](ExactTrial& trial) -> Value { return F{}(trial); }};
-}
-
-// Of a solver under test, whose process under_test/optimized_solver_unit.h asks.
-constexpr Objective OfSolver(const Text& text) {
-  Objective objective = {text.name, text.help, text.unit, text.sign};
-  objective.of_solver = true;
-  return objective;
+Objective Exactly(Objective row, F) {
+  row.exact = [](ExactTrial& trial) -> Value { return F{}(trial); };
+  return row;
 }
 
 // A counter of runs that end solved: what a loop counts is only when it was noticed.
@@ -130,12 +111,6 @@ double StartsOfIpopt(ExactTrial& trial) {
   return static_cast<double>(solved ? statistics.starts : options.starts + 1);
 }
 
-// Of this one continuation is the better optimizer.
-Objective Continued(Objective row) {
-  row.optimizer = "continuation";
-  return row;
-}
-
 }  // namespace
 
 std::span<const Objective> Objectives() {
@@ -153,11 +128,16 @@ std::span<const Objective> Objectives() {
              [](auto& t) { return OfSolved<&Statistics::longest_zero_run>(t); }),
       OfRuns({"give-ups", "variables that a run gives up and yet solves", "give-ups"},
              [](auto& t) { return OfSolved<&Statistics::give_ups>(t); }),
-      Continued(OfRuns({"scans", "scans for a violated condition, of a run that solves", "scans"},
-                       [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); })),
-      Continued(
-          OfRuns({"memory", "the longest chain of forces given up, each while the one before rested", "forces"},
-                 [](auto& t) { return static_cast<double>(LongestMemory(t)); })),
+      OfRuns({.name = "scans",
+              .help = "scans for a violated condition, of a run that solves",
+              .unit = "scans",
+              .optimizer = "continuation"},
+             [](auto& t) { return OfSolved<&Statistics::outer_scans>(t); }),
+      OfRuns({.name = "memory",
+              .help = "the longest chain of forces given up, each while the one before rested",
+              .unit = "forces",
+              .optimizer = "continuation"},
+             [](auto& t) { return static_cast<double>(LongestMemory(t)); }),
       OfLoops({"period", "drives of a loop's period", "drives"},
               [](auto& t) { return static_cast<double>(t.Published().period); }),
       OfLoops({"start", "drives before a loop begins", "drives"},
@@ -174,26 +154,28 @@ std::span<const Objective> Objectives() {
              }),
       Exactly({"bits", "the longest number of an exact run", "bits"},
               [](ExactTrial& t) { return static_cast<double>(LongestNumber(t)); }),
-      [] {
-        Objective row =
-            OfLoops({"condition", "condition number of a definite A with a loop", "", -1}, [](auto& t) {
-              if constexpr (std::is_same_v<std::remove_reference_t<decltype(t)>, InexactTrial>)
-                return NegativeCondition(t.problem());
-              else
-                return NegativeCondition(Rounded<double>(t.problem()));
-            });
-        row.of_definite = true;
-        return row;
-      }(),
-      [] {
-        Objective row = OfLoops({"friction", "the friction coefficient of a loop", "mu", -1},
-                                [](auto& t) { return -AsDouble(LargestFriction(t)); });
-        row.lowers_friction = true;
-        return row;
-      }(),
-      Continued(
-          Exactly({"rounding", "error of the forces over doubles, relative to the largest: log10", "decades"},
-                  [](ExactTrial& t) { return RoundingError(t); })),
+      OfLoops({.name = "condition",
+               .help = "condition number of a definite A with a loop",
+               .unit = "",
+               .sign = -1,
+               .of_definite = true},
+              [](auto& t) {
+                if constexpr (std::is_same_v<std::remove_reference_t<decltype(t)>, InexactTrial>)
+                  return NegativeCondition(t.problem());
+                else
+                  return NegativeCondition(Rounded<double>(t.problem()));
+              }),
+      OfLoops({.name = "friction",
+               .help = "the friction coefficient of a loop",
+               .unit = "mu",
+               .sign = -1,
+               .lowers_friction = true},
+              [](auto& t) { return -AsDouble(LargestFriction(t)); }),
+      Exactly({.name = "rounding",
+               .help = "error of the forces over doubles, relative to the largest: log10",
+               .unit = "decades",
+               .optimizer = "continuation"},
+              [](ExactTrial& t) { return RoundingError(t); }),
       Exactly({"policies", "different ends (outcome, start, period) over the grid of policies", "ends"},
               [](ExactTrial& t) { return DifferentEnds(t); }),
       Exactly(
@@ -209,33 +191,29 @@ std::span<const Objective> Objectives() {
              [](auto& t) { return static_cast<double>(t.Complete().statistics[Counter::kPieces]); }),
       Exactly({"solutions", "different solutions among all contact modes, up to four contacts", "solutions"},
               [](ExactTrial& t) { return NumberOfSolutions(t); }),
-      [] {
-        Objective row =
-            Exactly({"margin", "least relative gap of any decision of a loop: how robust it is", ""},
-                    [](ExactTrial& t) { return Margin(t); });
-        row.of_loops = true;
-        return row;
-      }(),
-      [] {
-        Objective row =
-            Exactly({"radius",
-                     "how far all numbers of a loop may move at once while it stays, proved by intervals", ""},
-                    [](ExactTrial& t) { return Radius(t); });
-        row.of_loops = true;
-        return row;
-      }(),
-      OfSolver({"error", "with --solver: error of what it calls solved (solver/problem/errors.h): log10",
-                "decades"}),
-      OfSolver({"time", "with --solver: processor time that it takes, in seconds: log10", "decades"}),
+      Exactly({.name = "margin",
+               .help = "least relative gap of any decision of a loop: how robust it is",
+               .unit = "",
+               .of_loops = true},
+              [](ExactTrial& t) { return Margin(t); }),
+      Exactly({.name = "radius",
+               .help = "how far all numbers of a loop may move at once while it stays, proved by intervals",
+               .unit = "",
+               .of_loops = true},
+              [](ExactTrial& t) { return Radius(t); }),
+      // Of a solver under test, whose process under_test/solver_unit.h asks.
+      Objective{.name = "error",
+                .help = "with --solver: error of what it calls solved (solver/problem/errors.h): log10",
+                .unit = "decades",
+                .of_solver = true},
+      Objective{.name = "time",
+                .help = "with --solver: processor time that it takes, in seconds: log10",
+                .unit = "decades",
+                .of_solver = true},
   };
   return kRows;
 }
 
-const Objective* FindObjective(std::string_view name) {
-  const auto rows = Objectives();
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [name](const Objective& o) { return o.name == name; });
-  return row == rows.end() ? nullptr : &*row;
-}
+const Objective* FindObjective(std::string_view name) { return RowNamed(Objectives(), name); }
 
 }  // namespace stiction

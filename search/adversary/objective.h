@@ -2,7 +2,7 @@
 // Objectives: what an optimized search makes large, functions of one problem. Higher is worse for the solver.
 //
 // A new one is a row of the table in objective.cpp. Optimizers exploit tolerances, so a value over doubles is
-// only ever a reason to look again: it is the one over rationals that counts (assessor.h).
+// only ever a reason to look again: it is the one over rationals that counts (optimizer.h).
 
 #ifndef STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_
 #define STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_

@@ -10,6 +10,7 @@
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/adversary/parents.h"
+#include "search/units/regenerate.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"
 
@@ -20,11 +21,9 @@ constexpr std::size_t kElitesOfUnit = 8;
 constexpr std::size_t kParents = 16;
 constexpr std::size_t kSmallerParents = 2;  // of each size
 
-bool Better(const Elite& left, const Elite& right) { return right.worth < left.worth; }
-
 // The best first, each problem once, at most so many.
 void KeepBest(std::vector<Elite>& elites, std::size_t most) {
-  std::stable_sort(elites.begin(), elites.end(), Better);
+  std::ranges::stable_sort(elites, IsBetter);
   std::vector<Elite> kept;
   for (Elite& elite : elites) {
     const auto same = [&elite](const Elite& other) { return other.candidate == elite.candidate; };
@@ -36,24 +35,6 @@ void KeepBest(std::vector<Elite>& elites, std::size_t most) {
 double Number(const JsonPlace& place) {
   if (!place.json().is_number()) place.Refuse("a number");
   return place.json().get<double>();
-}
-
-// A loop as a finding; its index is the place among the loops of its unit.
-Finding FindingOf(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
-                  const Assessed& assessed, std::string signature, const ExactRun& run) {
-  const std::string generator(Row(task.generator).name);
-  Finding finding;
-  finding.signature = std::move(signature);
-  finding.kind = Name(run.verdict.outcome);
-  finding.unit = unit;
-  finding.index = index;
-  finding.generator = generator;
-  finding.contacts = task.contacts;
-  finding.policy = PolicyName(campaign.policies.front());
-  finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
-  finding.problem =
-      JsonText(ToJson(FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit, index))));
-  return finding;
 }
 
 // What an optimizer is given: what was found and what was asked for, of its size, then what is smaller, made as
@@ -151,15 +132,15 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
 
   UnitResult result;
   result.problems = optimized.evaluations;
-  UnitElites elites{{}, optimized.evaluations, optimized.confirmations, optimized.denied};
-  for (const Assessed& assessed : optimized.elites)
-    elites.elites.push_back({assessed.candidate, assessed.worth});
+  UnitElites elites{{optimized.elites.begin(), optimized.elites.end()},
+                    optimized.evaluations,
+                    optimized.confirmations,
+                    optimized.denied};
   KeepBest(elites.elites, kElitesOfUnit);
   result.elites = ToText(elites);
   if (tries) return result;  // of a solver under test, which may be in space, no run of the published algorithm
   // The best loops stand for their signatures.
-  std::stable_sort(optimized.loops.begin(), optimized.loops.end(),
-                   [](const Assessed& left, const Assessed& right) { return right.worth < left.worth; });
+  std::ranges::stable_sort(optimized.loops, IsBetter);
   std::int64_t index = 0;
   for (const Assessed& assessed : optimized.loops) {
     const ExactProblem problem = ExactOf(assessed.candidate);
@@ -168,9 +149,14 @@ UnitResult RunOptimizedUnit(const Campaign& campaign, std::int64_t unit, const s
     if (!(run.policy == Policy{})) signature += "@" + PolicyName(run.policy);
     const bool first = ++result.record.signatures[signature] == 1;
     const bool room = static_cast<std::int64_t>(result.candidates.size()) < campaign.representatives_per_unit;
-    if (first && room)
-      result.candidates.push_back(FindingOf(campaign, task, unit, index, assessed, std::move(signature), run));
-    ++index;
+    if (first && room) {
+      Finding& finding = result.candidates.emplace_back(FindingAt(campaign, task, unit, index));
+      finding.signature = std::move(signature);
+      finding.kind = finding.inexact_outcome = finding.exact_outcome = Name(run.verdict.outcome);
+      const std::string name = fmt::format("{}-{}-{}", finding.generator, unit, index);
+      finding.problem = JsonText(ToJson(FileOf(assessed.candidate, name)));
+    }
+    ++index;  // its place among the loops of its unit
   }
   return result;
 }
@@ -186,7 +172,7 @@ std::vector<Elite> BestOf(const Store& store, std::size_t most) {
     KeepBest(elites, most);
     best.insert(best.end(), elites.begin(), elites.end());
   }
-  std::stable_sort(best.begin(), best.end(), Better);
+  std::ranges::stable_sort(best, IsBetter);
   return best;
 }
 

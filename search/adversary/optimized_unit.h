@@ -17,15 +17,9 @@
 
 namespace stiction {
 
-// A candidate that a unit leaves behind; its worth is of the exact problem.
-struct Elite {
-  Candidate candidate;
-  Worth worth;
-};
-
 // As a store keeps those of a unit, with what they cost.
 struct UnitElites {
-  std::vector<Elite> elites;  // the best first
+  std::vector<Elite> elites;  // the best first; their worth is of the exact problem
   std::int64_t evaluations = 0, confirmations = 0, denied = 0;
 };
 std::string ToText(const UnitElites& elites);

@@ -87,22 +87,19 @@ std::int64_t Memory(Trial<Scalar>& trial) {
   return longest;
 }
 
-// A quantity whose sign a condition asks for, where a step begins, and how it changes per unit step.
-struct Quantity {
-  Rational value, rate;
-};
-
+// visit(value, rate) of every quantity whose sign a condition asks for: where a step begins, and how it changes
+// per unit step.
 template <class Visit>
 void ForEachQuantity(const ExactProblem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
                      const ExactProblem::Vector& df, const ExactProblem::Vector& da, Visit visit) {
   for (std::size_t contact = 0; contact < problem.contacts.size(); ++contact) {
     const auto n = static_cast<Eigen::Index>(2 * contact), t = n + 1;
     const Rational& mu = problem.contacts[contact].mu;
-    visit(Quantity{f[n], df[n]});
-    visit(Quantity{a[n], da[n]});
-    visit(Quantity{a[t], da[t]});
-    visit(Quantity{mu * f[n] - f[t], mu * df[n] - df[t]});
-    visit(Quantity{mu * f[n] + f[t], mu * df[n] + df[t]});
+    visit(f[n], df[n]);
+    visit(a[n], da[n]);
+    visit(a[t], da[t]);
+    visit(Rational(mu * f[n] - f[t]), Rational(mu * df[n] - df[t]));
+    visit(Rational(mu * f[n] + f[t]), Rational(mu * df[n] + df[t]));
   }
 }
 
@@ -112,14 +109,15 @@ double GapOfStep(const ExactProblem& problem, const Pivot<Rational>& before, con
   if (step.s == 0) return bounce ? 1 : 0;
   double gap = 1;
   int k = 0;
-  ForEachQuantity(problem, before.f, before.a, step.df, step.da, [&](const Quantity& q) {
-    const int contact = k++ / 5;
-    if (q.value == 0 || sgn(q.value) == sgn(q.rate) || q.rate == 0) return;
-    const Rational zero = -q.value / q.rate;
-    if (zero == step.s && contact != step.limiting / 2) gap = 0;
-    if (zero > step.s) gap = std::min(gap, ToDouble((zero - step.s) / zero));
-    if (zero < step.s) gap = std::min(gap, ToDouble((step.s - zero) / step.s));
-  });
+  ForEachQuantity(problem, before.f, before.a, step.df, step.da,
+                  [&](const Rational& value, const Rational& rate) {
+                    const int contact = k++ / 5;
+                    if (value == 0 || sgn(value) == sgn(rate) || rate == 0) return;
+                    const Rational zero = -value / rate;
+                    if (zero == step.s && contact != step.limiting / 2) gap = 0;
+                    if (zero > step.s) gap = std::min(gap, ToDouble((zero - step.s) / zero));
+                    if (zero < step.s) gap = std::min(gap, ToDouble((step.s - zero) / step.s));
+                  });
   return gap;
 }
 
@@ -138,11 +136,11 @@ double GapOfScan(const ExactProblem& problem, const Pivot<Rational>& end) {
   const double largest_f = LargestOf<Rational>(end.f), largest_a = LargestOf<Rational>(end.a);
   double gap = 1;
   int k = 0;
-  ForEachQuantity(problem, end.f, end.a, end.f, end.a, [&](const Quantity& q) {
+  ForEachQuantity(problem, end.f, end.a, end.f, end.a, [&](const Rational& value, const Rational&) {
     const bool of_acceleration = k % 5 == 1 || k % 5 == 2;
     ++k;
     const double scale = of_acceleration ? largest_a : largest_f;
-    if (q.value != 0 && scale > 0) gap = std::min(gap, std::abs(ToDouble(q.value)) / scale);
+    if (value != 0 && scale > 0) gap = std::min(gap, std::abs(ToDouble(value)) / scale);
   });
   return gap;
 }

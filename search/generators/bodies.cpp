@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bodies: rigid bodies, joined at points.
+// bodies: rigid bodies, joined at points. one-body: one of any distribution of mass.
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,8 @@
 
 namespace stiction::generators {
 namespace {
+
+// ---- bodies ----------------------------------------------------------------------------------
 
 template <class Scalar>
 Scalar DrawPositive(Choices& choices) {
@@ -36,60 +38,30 @@ Body<Scalar> DrawBody(bool gravity, bool applied, Choices& choices) {
   return body;
 }
 
-// Contact point and unit normal (nx, ny); the tangent is (-ny, nx).
-template <class Scalar>
-struct ContactFrame {
-  int x, y;  // in tenths
-  Scalar nx, ny;
-};
-
-// Normals 2pq : p^2 - q^2 over p^2 + q^2, all quadrants; p = q = 0 counts as (1, 0): straight up.
-template <class Scalar>
-ContactFrame<Scalar> DrawContactFrame(Choices& choices) {
-  const int x = static_cast<int>(choices.Integer(-20, 20));
-  const int y = static_cast<int>(choices.Integer(-20, 20));
-  int p = static_cast<int>(choices.Integer(-7, 7));
-  const int q = static_cast<int>(choices.Integer(-7, 7));
-  if (p == 0 && q == 0) p = 1;
-  const Scalar length = Scalar(p * p + q * q);
-  return {x, y, Scalar(2 * p * q) / length, Scalar(p * p - q * q) / length};
-}
-
-// The rows of one contact in the columns of one body: sign * (n, r x n) and sign * (t, r x t).
-template <class Scalar, class Columns>
-void SetContactRows(const ContactFrame<Scalar>& frame, const Body<Scalar>& body, int contact, int index,
-                    int sign, Columns& J) {
-  const Scalar rx = Scalar(frame.x - body.x) / Scalar(10);
-  const Scalar ry = Scalar(frame.y - body.y) / Scalar(10);
-  const Scalar nx = Scalar(sign) * frame.nx;
-  const Scalar ny = Scalar(sign) * frame.ny;
-  J(2 * contact, 3 * index) = nx;
-  J(2 * contact, 3 * index + 1) = ny;
-  J(2 * contact, 3 * index + 2) = rx * ny - ry * nx;
-  J(2 * contact + 1, 3 * index) = -ny;
-  J(2 * contact + 1, 3 * index + 1) = nx;
-  J(2 * contact + 1, 3 * index + 2) = rx * nx + ry * ny;
-}
-
 // J by contacts: contact i < bodies is one of body i, so that each body has one; the partner is the world
-// or another body. One point and one frame per contact, so that all arms fit together.
+// or another body. One point, in tenths, and one normal per contact, so that all arms fit together.
 template <class Scalar, int Rows>
 BodyJacobian<Scalar, Rows> DrawContacts(int rows, int bodies, const std::array<Body<Scalar>, kMaxBodies>& body,
                                         Choices& choices) {
   BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, bodies);
   for (int contact = 0; contact < rows / 2; ++contact) {
-    const ContactFrame<Scalar> frame = DrawContactFrame<Scalar>(choices);
+    const int x = static_cast<int>(choices.Integer(-20, 20)), y = static_cast<int>(choices.Integer(-20, 20));
+    const Vector2<Scalar> normal = DrawNormal<Scalar>(7, choices);
+    const auto set = [&](int index, int sign) {
+      const Vector2<Scalar> arm = MakeVector2<Scalar>(Scalar(Scalar(x - body[index].x) / Scalar(10)),
+                                                      Scalar(Scalar(y - body[index].y) / Scalar(10)));
+      SetSceneRows<Scalar>(normal, arm, contact, index, sign, J);
+    };
     const int mine = contact < bodies ? contact : static_cast<int>(choices.Integer(0, bodies - 1));
     const int offset = static_cast<int>(choices.Integer(0, bodies - 1));  // 0: the world
-    SetContactRows(frame, body[mine], contact, mine, 1, J);
+    set(mine, 1);
     const int other = (mine + offset) % bodies;
-    if (other != mine) SetContactRows(frame, body[other], contact, other, -1, J);
+    if (other != mine) set(other, -1);
   }
   return J;
 }
 
-// Not modelled: shapes. Bodies may overlap each other and
-// the world, and lie on either side of a contact.
+// Not modelled: shapes. Bodies may overlap each other and the world, and lie on either side of a contact.
 template <class Scalar, int Rows>
 int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
@@ -102,7 +74,37 @@ int FillBodies(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>
   return 3 * bodies;
 }
 
-struct Bodies {
+// ---- one-body --------------------------------------------------------------------------------
+
+// The centre of mass is the origin; points in millimetres.
+template <class Scalar, int Rows>
+int FillOneBody(bool gravity_only, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  const int rows = problem.rows();
+  const bool applied = !gravity_only && choices.Integer(0, 1) == 1;
+  std::array<Body<Scalar>, kMaxBodies> body;
+  const int numerator = static_cast<int>(choices.Integer(1, 1000));
+  const int denominator = static_cast<int>(choices.Integer(1, 1'000'000'000));
+  const Scalar inertia = Scalar(numerator) / Scalar(denominator);
+  body[0].inverse_mass = {Scalar(1), Scalar(1), Scalar(Scalar(1) / inertia)};
+  body[0].free_acceleration = {Scalar(0), Scalar(-10), Scalar(0)};
+  for (int k = 0; applied && k < 3; ++k) {
+    const Scalar load = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(100);
+    body[0].free_acceleration[k] += load * body[0].inverse_mass[k];
+  }
+  BodyJacobian<Scalar, Rows> J = NoContacts<Scalar, Rows>(rows, 1);
+  for (int contact = 0; contact < rows / 2; ++contact) {
+    const Scalar x = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    const Scalar y = Scalar(static_cast<int>(choices.Integer(-2000, 2000))) / Scalar(1000);
+    const Vector2<Scalar> normal = DrawNormal<Scalar>(64, choices);
+    SetSceneRows<Scalar>(normal, MakeVector2<Scalar>(x, y), contact, 0, 1, J);
+  }
+  SetFromBodies(J, 1, body, problem);
+  return 3;
+}
+
+}  // namespace
+
+Generator MakeBodies() {
   static constexpr GeneratorRow kRow = {
       .name = "bodies",
       .distribution =
@@ -112,15 +114,25 @@ struct Bodies {
       .exact_in_double = false,
       .has_gravity = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
     return FillBodies(given.gravity_only, choices, problem);
-  }
-};
+  });
+}
 
-}  // namespace
-
-Generator MakeBodies() { return GeneratorOf<Bodies>(); }
+Generator MakeOneBody() {
+  static constexpr GeneratorRow kRow = {
+      .name = "one-body",
+      .distribution =
+          "One planar rigid body at rest and the world, joined at n points: as bodies, with "
+          "numbers of four digits, and any distribution of mass: mass 1, inertia p/q with p in "
+          "1..1000 and q in 1..10^9, so that its centre may be far from the points beside its "
+          "radius of inertia. Not part of a campaign that names no generators.",
+      .exact_in_double = false,
+      .has_gravity = true,
+  };
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
+    return FillOneBody(given.gravity_only, choices, problem);
+  });
+}
 
 }  // namespace stiction::generators

@@ -51,6 +51,17 @@ void SetFromBodies(const BodyJacobian<Scalar, Rows>& J, int bodies, const std::a
       J, 3 * bodies, [&body](int k) { return body[k / 3].free_acceleration[k % 3]; }, problem);
 }
 
+// Unit normals 2pq : p^2 - q^2 over p^2 + q^2, all quadrants, p and q up to `most`; p = q = 0 counts as (1, 0):
+// straight up.
+template <class Scalar>
+Vector2<Scalar> DrawNormal(int most, Choices& choices) {
+  int p = static_cast<int>(choices.Integer(-most, most));
+  const int q = static_cast<int>(choices.Integer(-most, most));
+  if (p == 0 && q == 0) p = 1;
+  const Scalar length = Scalar(p * p + q * q);
+  return MakeVector2<Scalar>(Scalar(Scalar(2 * p * q) / length), Scalar(Scalar(p * p - q * q) / length));
+}
+
 // The rows of one contact in the columns of one body, sign * (n, r x n) and sign * (t, r x t).
 template <class Scalar, class Columns>
 void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int contact, int index, int sign,

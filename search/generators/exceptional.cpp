@@ -151,30 +151,25 @@ int FillExceptional(const std::array<MuChoice, kMaxContacts>& mu, Choices& choic
   return std::min(columns, rows - jam.kernel);
 }
 
-struct Exceptional {
+}  // namespace
+
+Generator MakeExceptional() {
   static constexpr GeneratorRow kRow = {
       .name = "exceptional",
       .distribution =
           "Contacts of space that jam: A v = 0 for 1 to 3 forces v in the cones of friction, on their boundary "
           "(one contact for certain) or inside. b = -A x, where sticking forces x + r v of one contact at "
-          "least "
-          "only tend to their cone as r grows, or are beside that by 2^-k, k in 1..14, with probability 2/3; "
-          "other contacts stick or separate. J of integers, orthogonal to v, its number of columns uniform in "
-          "1..3n-1 or less; A = J J'. There is always a solution. Not part of a campaign that names no "
-          "generators.",
+          "least only tend to their cone as r grows, or are beside that by 2^-k, k in 1..14, with probability "
+          "2/3; other contacts stick or separate. J of integers, orthogonal to v, its number of columns "
+          "uniform in 1..3n-1 or less; A = J J'. There is always a solution. Not part of a campaign that names "
+          "no generators.",
       .exact_in_double = true,
       .dimension = 3,
       .most_mu_part = 16,  // numbers are multiples of it, and must stay exact
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillExceptional<Scalar>(given.mu, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeExceptional() { return GeneratorOf<Exceptional>(); }
+  return GeneratorOf<kRow>([](const Given& given, Choices& choices, auto& problem) {
+    return FillExceptional(given.mu, choices, problem);
+  });
+}
 
 }  // namespace stiction::generators

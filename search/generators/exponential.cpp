@@ -108,7 +108,9 @@ int FillExponential(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   return rows - missing;  // columns of friction that are zero
 }
 
-struct Exponential {
+}  // namespace
+
+Generator MakeExponential() {
   static constexpr GeneratorRow kRow = {
       .name = "exponential",
       .distribution =
@@ -121,15 +123,8 @@ struct Exponential {
           "columns by multiples of 2^-k in [-2^-k, 2^-k], k in 0..8. A = J J'.",
       .exact_in_double = true,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given&, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillExponential(choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeExponential() { return GeneratorOf<Exponential>(); }
+  return GeneratorOf<kRow>(
+      [](const Given&, Choices& choices, auto& problem) { return FillExponential(choices, problem); });
+}
 
 }  // namespace stiction::generators

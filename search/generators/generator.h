@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A generator as its file makes it: a row of the table, and what fills problems over every scalar.
 //
-//   struct Small {
+//   Generator MakeSmall() {
 //     static constexpr GeneratorRow kRow = {.name = "small", ...};
 //     // All of a problem but its contacts, which are there; returns what rank(A) is at most, by construction.
-//     template <class Scalar, int Rows>
-//     static int Fill(const Given&, Choices&, ContactProblem<Scalar, Rows>&);
-//   };
-//   Generator MakeSmall() { return GeneratorOf<Small>(); }
+//     return GeneratorOf<kRow>([](const Given&, Choices& choices, auto& problem) { ... });
+//   }
 
 #ifndef STICTION_SEARCH_GENERATORS_GENERATOR_H_
 #define STICTION_SEARCH_GENERATORS_GENERATOR_H_
@@ -39,19 +37,20 @@ struct Generator {
       fill;
 };
 
-template <class Family, class Scalar, int Rows>
-constexpr Filling<Scalar, Rows> FillingOf(Filling<Scalar, Rows>) {
-  if constexpr (Rows == Eigen::Dynamic || Family::kRow.IsPlain()) {
-    return &Family::template Fill<Scalar, Rows>;
-  } else {
-    return nullptr;
-  }
-}
-
-template <class Family>
-Generator GeneratorOf() {
-  const auto of = [](auto... none) { return std::tuple(FillingOf<Family>(none)...); };
-  return {Family::kRow, std::apply(of, decltype(Generator::fill)())};
+// `Fill` is a generic function without a state.
+template <const GeneratorRow& kRow, class Fill>
+Generator GeneratorOf(Fill) {
+  const auto of = []<class Scalar, int Rows>(Filling<Scalar, Rows>) -> Filling<Scalar, Rows> {
+    if constexpr (Rows == Eigen::Dynamic || kRow.IsPlain()) {
+      return [](const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
+        return Fill()(given, choices, problem);
+      };
+    } else {
+      return nullptr;
+    }
+  };
+  return {kRow,
+          std::apply([of](auto... none) { return std::tuple(of(none)...); }, decltype(Generator::fill)())};
 }
 
 #define STICTION_DECLARE_GENERATOR(name) Generator Make##name();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "corpus/named_rows.h"
 #include "corpus/rational.h"
 #include "search/generators/drawing.h"
 #include "search/generators/generator.h"
@@ -53,11 +54,8 @@ const std::array<GeneratorRow, kGeneratorCount>& Generators() {
 }
 
 std::optional<GeneratorId> FindGenerator(std::string_view name) {
-  const auto& rows = Generators();
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [name](const GeneratorRow& r) { return r.name == name; });
-  if (row == rows.end()) return std::nullopt;
-  return row->id;
+  const GeneratorRow* const row = RowNamed(Generators(), name);
+  return row == nullptr ? std::nullopt : std::optional(row->id);
 }
 
 template <class Scalar, int Rows>

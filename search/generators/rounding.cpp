@@ -121,36 +121,24 @@ namespace {
 
 // The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
 // denominators; 1 if all are zero.
-class CommonFactor {
- public:
-  void Add(const Rational& x) {
-    if (x == 0) return;
-    numerator_ = gcd(numerator_, x.get_num());
-    denominator_ = lcm(denominator_, x.get_den());
+template <class Matrix>
+Rational CommonFactor(const Matrix& numbers) {
+  mpz_class numerator = 0, denominator = 1;
+  for (const Rational& x : numbers.reshaped()) {
+    if (x == 0) continue;
+    numerator = gcd(numerator, x.get_num());
+    denominator = lcm(denominator, x.get_den());
   }
-  Rational Get() const {
-    if (numerator_ == 0) return 1;
-    return Rational(numerator_) / Rational(denominator_);
-  }
-
- private:
-  mpz_class numerator_ = 0;
-  mpz_class denominator_ = 1;
-};
+  return numerator == 0 ? Rational(1) : Rational(Rational(numerator) / Rational(denominator));
+}
 
 }  // namespace
 
 std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& problem) {
-  CommonFactor in_A, in_b;
-  for (int i = 0; i < problem.rows(); ++i) {
-    in_b.Add(problem.b[i]);
-    for (int j = 0; j < problem.rows(); ++j) in_A.Add(problem.A(i, j));
-  }
+  const Rational in_A = CommonFactor(problem.A), in_b = CommonFactor(problem.b);
   ExactProblem divided_A = problem, divided_b = problem;
-  for (int i = 0; i < problem.rows(); ++i) {
-    divided_b.b[i] /= in_b.Get();
-    for (int j = 0; j < problem.rows(); ++j) divided_A.A(i, j) /= in_A.Get();
-  }
+  for (Rational& x : divided_A.A.reshaped()) x /= in_A;
+  for (Rational& x : divided_b.b) x /= in_b;
   return {std::move(divided_A), std::move(divided_b)};
 }
 

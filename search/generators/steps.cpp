@@ -21,6 +21,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/plane.h"
 #include "search/generators/drawing.h"
 #include "search/generators/generator.h"
 
@@ -30,21 +31,10 @@ namespace {
 constexpr int kMostBodies = kMaxContacts, kTheFixed = -1;
 constexpr float kMostSpeed = 1024;  // m/s: sweeps that diverge end here
 
-struct Float2 {
-  float x = 0, y = 0;
-
-  Float2 operator+(const Float2& other) const { return {x + other.x, y + other.y}; }
-  Float2 operator-(const Float2& other) const { return {x - other.x, y - other.y}; }
-  Float2 operator*(float factor) const { return {x * factor, y * factor}; }
-};
-float Along(const Float2& p, const Float2& q) { return p.x * q.x + p.y * q.y; }
-float Moment2(const Float2& arm, const Float2& q) { return arm.x * q.y - arm.y * q.x; }
-Float2 Turned2(const Float2& turn, const Float2& p) {
-  return {turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y};
-}
+using Vector = Vector2<float>;
 
 struct SteppedBody {
-  Float2 at, turn = {1, 0};               // centre of mass, m; cosine and sine
+  Vector at = {0, 0}, turn = {1, 0};      // centre of mass, m; cosine and sine
   std::array<float, 3> speed = {};        // x, y, spin
   std::array<float, 3> inverse = {};      // 1/m, 1/m, 1/I
   std::array<float, 3> push = {0, 0, 0};  // acceleration by what acts on it, gravity among it
@@ -52,7 +42,7 @@ struct SteppedBody {
 
 struct SteppedContact {
   int a = 0, b = kTheFixed;
-  Float2 at_a, at_b, normal;              // of a and b; the normal of b, from b to a
+  Vector at_a, at_b, normal;              // of a and b; the normal of b, from b to a
   std::array<float, 2> impulse = {0, 0};  // of the step before
 };
 
@@ -74,20 +64,16 @@ int Draw(int low, int high, Choices& choices) { return static_cast<int>(choices.
 float Part(int low, int high, Choices& choices) { return static_cast<float>(Draw(low, high, choices)) / 64; }
 
 // (2pq, p^2 - q^2) / (p^2 + q^2): straight up for q = 0.
-Float2 UnitNormal(int p, int q) {
+Vector UnitNormal(int p, int q) {
   if (p == 0 && q == 0) p = 1;
   const auto length = static_cast<float>(p * p + q * q);
   return {static_cast<float>(2 * p * q) / length, static_cast<float>(p * p - q * q) / length};
 }
 
-struct Range {
-  int low, high;
-};
-
 // q is drawn first: arguments of a call would be drawn in an order of the compiler's choice.
-Float2 DrawNormal(Range of_p, Range of_q, Choices& choices) {
-  const int q = Draw(of_q.low, of_q.high, choices);
-  return UnitNormal(Draw(of_p.low, of_p.high, choices), q);
+Vector DrawNormal(int least_p, int most_q, Choices& choices) {
+  const int q = Draw(-most_q, most_q, choices);
+  return UnitNormal(Draw(least_p, 7, choices), q);
 }
 
 // ---- Worlds ----------------------------------------------------------------------------------
@@ -99,7 +85,7 @@ float DrawMass(int spread, Choices& choices) {
 }
 
 // `gyration`: the square of the radius of gyration.
-int AddBody(const Float2& at, float gyration, int spread, SteppedWorld& world, Choices& choices) {
+int AddBody(const Vector& at, float gyration, int spread, SteppedWorld& world, Choices& choices) {
   SteppedBody& body = world.body[world.bodies];
   body.at = at;
   const float mass = DrawMass(spread, choices);
@@ -114,7 +100,7 @@ float GyrationOfBox(float half_width, float half_height) {
   return (half_width * half_width + half_height * half_height) / 3;
 }
 
-void AddTouch(int a, int b, const Float2& point, const Float2& normal, SteppedWorld& world) {
+void AddTouch(int a, int b, const Vector& point, const Vector& normal, SteppedWorld& world) {
   SteppedContact& contact = world.contact[world.contacts++];
   contact.a = a;
   contact.b = b;
@@ -149,10 +135,10 @@ void MakeStack(int contacts, int spread, SteppedWorld& world, Choices& choices) 
 void MakeWall(int contacts, int spread, SteppedWorld& world, Choices& choices) {
   struct Place {
     int a, b;
-    Float2 point, normal;
+    Vector point, normal;
   };
   const float width = Part(32, 96, choices), height = Part(12, 48, choices), shift = Part(-15, 15, choices);
-  const std::array<Float2, 3> places = {{{-width, height}, {width, height}, {shift, 3 * height}}};
+  const std::array<Vector, 3> places = {{{-width, height}, {width, height}, {shift, 3 * height}}};
   for (int i = 0; i < std::min(contacts, 3); ++i)
     AddBody(places[static_cast<std::size_t>(i)], GyrationOfBox(width, height), spread, world, choices);
   const float top = 2 * height;
@@ -179,20 +165,20 @@ void MakePile(int contacts, int spread, SteppedWorld& world, Choices& choices) {
   for (int i = 0; i < discs; ++i) {
     const float r = radius[static_cast<std::size_t>(i)] = Part(8, 64, choices);
     const int below = Draw(kTheFixed, i - 1, choices);
-    const Float2 normal = DrawNormal({3, 7}, {-3, 3}, choices);
+    const Vector normal = DrawNormal(3, 3, choices);
     if (below == kTheFixed) {
       const float x = Part(-256, 256, choices);
       AddTouch(AddBody({x, r}, r * r / 2, spread, world, choices), kTheFixed, {x, 0}, {0, 1}, world);
       continue;
     }
-    const Float2 centre = world.body[below].at,
+    const Vector centre = world.body[below].at,
                  point = centre + normal * radius[static_cast<std::size_t>(below)];
     AddTouch(AddBody(point + normal * r, r * r / 2, spread, world, choices), below, point, normal, world);
   }
   while (world.contacts < contacts) {
     const int disc = Draw(0, discs - 1, choices);
-    const Float2 normal = DrawNormal({1, 7}, {-7, 7}, choices);
-    const Float2 point = world.body[disc].at - normal * radius[static_cast<std::size_t>(disc)];
+    const Vector normal = DrawNormal(1, 7, choices);
+    const Vector point = world.body[disc].at - normal * radius[static_cast<std::size_t>(disc)];
     AddTouch(disc, kTheFixed, point, normal, world);
   }
 }
@@ -211,9 +197,10 @@ void MakeGrasp(int contacts, int spread, SteppedWorld& world, Choices& choices) 
   }
   for (int i = 0; i < contacts; ++i) {
     const float side = i % 2 == 0 ? -1.0F : 1.0F;
-    const Float2 tilted = UnitNormal(8, Draw(-2, 2, choices));
-    const Float2 point = {side * width, height * Part(-64, 64, choices)};
-    AddTouch(box, finger[static_cast<std::size_t>(i % 2)], point, Float2{tilted.y, tilted.x} * -side, world);
+    const Vector tilted = UnitNormal(8, Draw(-2, 2, choices));
+    const Vector point = {side * width, height * Part(-64, 64, choices)};
+    AddTouch(box, finger[static_cast<std::size_t>(i % 2)], point,
+             MakeVector2<float>(tilted[1], tilted[0]) * -side, world);
   }
 }
 
@@ -221,23 +208,23 @@ void MakeGrasp(int contacts, int spread, SteppedWorld& world, Choices& choices) 
 void MakeRandom(int contacts, int spread, SteppedWorld& world, Choices& choices) {
   const int bodies = Draw(1, contacts, choices);
   for (int i = 0; i < bodies; ++i) {
-    const Float2 at = {Part(-128, 128, choices), Part(-128, 128, choices)};
+    const Vector at = {Part(-128, 128, choices), Part(-128, 128, choices)};
     AddBody(at, Part(8, 64, choices), spread, world, choices);
   }
   for (int i = 0; i < contacts; ++i) {
     const int mine = i < bodies ? i : Draw(0, bodies - 1, choices);
     const int other = (mine + Draw(0, bodies - 1, choices)) % bodies;
-    const Float2 point = {Part(-128, 128, choices), Part(-128, 128, choices)};
-    const Float2 normal = DrawNormal({-7, 7}, {-7, 7}, choices);
+    const Vector point = {Part(-128, 128, choices), Part(-128, 128, choices)};
+    const Vector normal = DrawNormal(-7, 7, choices);
     AddTouch(mine, other == mine ? kTheFixed : other, point, normal, world);
   }
 }
 
 // ---- Stepping --------------------------------------------------------------------------------
 
-void SetRow(const Float2& way, const Float2& arm_a, const Float2& arm_b, SteppedRow& row) {
-  row[0] = {way.x, way.y, Moment2(arm_a, way)};
-  row[1] = {-way.x, -way.y, -Moment2(arm_b, way)};
+void SetRow(const Vector& way, const Vector& arm_a, const Vector& arm_b, SteppedRow& row) {
+  row[0] = {way[0], way[1], Cross<float>(arm_a, way)};
+  row[1] = {-way[0], -way[1], -Cross<float>(arm_b, way)};
 }
 
 // Sets the rows of a contact; returns its gap.
@@ -246,11 +233,12 @@ float SetRows(int number, SteppedWorld& world) {
   const SteppedBody& a = world.body[contact.a];
   SteppedBody b;  // what is fixed: at the origin
   if (contact.b != kTheFixed) b = world.body[contact.b];
-  const Float2 on_a = a.at + Turned2(a.turn, contact.at_a), on_b = b.at + Turned2(b.turn, contact.at_b);
-  const Float2 normal = Turned2(b.turn, contact.normal), point = (on_a + on_b) * 0.5F;
+  const Vector on_a = a.at + Rotate<float>(a.turn, contact.at_a),
+               on_b = b.at + Rotate<float>(b.turn, contact.at_b);
+  const Vector normal = Rotate<float>(b.turn, contact.normal), point = (on_a + on_b) * 0.5F;
   SetRow(normal, point - a.at, point - b.at, world.row[2 * number]);
-  SetRow({-normal.y, normal.x}, point - a.at, point - b.at, world.row[2 * number + 1]);
-  return Along(normal, on_a - on_b);
+  SetRow({-normal[1], normal[0]}, point - a.at, point - b.at, world.row[2 * number + 1]);
+  return Dot<float>(normal, on_a - on_b);
 }
 
 float SpeedOf(const SteppedWorld& world, int row) {
@@ -315,10 +303,10 @@ void EndStep(const std::array<float, kMaxContacts>& gaps, SteppedWorld& world) {
   for (int i = 0; i < world.bodies; ++i) {
     SteppedBody& body = world.body[i];
     for (float& speed : body.speed) speed = std::clamp(speed, -kMostSpeed, kMostSpeed);
-    body.at = body.at + Float2{body.speed[0], body.speed[1]} * world.h;
+    body.at = body.at + MakeVector2<float>(body.speed[0], body.speed[1]) * world.h;
     const float t = body.speed[2] * world.h / 2, scale = 1 + t * t;
-    const Float2 turned = Turned2({(1 - t * t) / scale, 2 * t / scale}, body.turn);
-    body.turn = turned * (1 / std::sqrt(Along(turned, turned)));
+    const Vector turned = Rotate<float>({(1 - t * t) / scale, 2 * t / scale}, body.turn);
+    body.turn = turned * (1 / std::sqrt(Dot<float>(turned, turned)));
   }
 }
 
@@ -366,26 +354,19 @@ int FillSteps(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>
   return columns;
 }
 
-struct Steps {
+}  // namespace
+
+Generator MakeSteps() {
   static constexpr GeneratorRow kRow = {
       .name = "steps",
       .distribution =
           "One step of an engine: a stack, a wall, a pile, a grasp or bodies anyhow, masses up to 10^4 apart, "
-          "after 0 "
-          "to 11 steps of 1/30 to 1/240 s with 1 to 16 sweeps and a Baumgarte term, all in floats; J, inverse "
-          "masses "
-          "and velocities u as floats, A = J W J' and b = J u exactly.",
+          "after 0 to 11 steps of 1/30 to 1/240 s with 1 to 16 sweeps and a Baumgarte term, all in floats; J, "
+          "inverse masses and velocities u as floats, A = J W J' and b = J u exactly.",
       .exact_in_double = false,
   };
-
-  template <class Scalar, int Rows>
-  static int Fill(const Given& given, Choices& choices, ContactProblem<Scalar, Rows>& problem) {
-    return FillSteps(given, choices, problem);
-  }
-};
-
-}  // namespace
-
-Generator MakeSteps() { return GeneratorOf<Steps>(); }
+  return GeneratorOf<kRow>(
+      [](const Given& given, Choices& choices, auto& problem) { return FillSteps(given, choices, problem); });
+}
 
 }  // namespace stiction::generators

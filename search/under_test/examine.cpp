@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/under_test/examine.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "corpus/record/kinds.h"
-#include "solver/problem/check.h"
-
 namespace stiction {
-
-bool Examined::Fails() const { return IsOfSolver(kind); }
-
-std::string Examined::Signature(std::size_t contacts) const {
-  STICTION_CHECK(Fails(), "a signature is of a failure");
-  return fmt::format("{}{}{}-{}c", kind, what.empty() ? "" : "-", what, contacts);
-}
 
 Examined Examine(SolverProcess& process, const ContactProblem<double>& posed, double seconds) {
   const SolverReply reply = process.Solve(posed, seconds);
@@ -28,16 +16,9 @@ Examined Examine(SolverProcess& process, const ContactProblem<double>& posed, do
     const auto solution = in_space ? NearSolution(posed) : SolutionUnder(about.law, posed);
     return {.kind = solution ? "refused-solvable" : "refused", .what = ""};
   }
-  const char* const what = reply.is_in_range ? "" : "out-of-range";
-  Examined examined = {.kind = "not-finite", .what = what, .says_solved = true};
-  if (!reply.f.allFinite()) return examined;
-  const JudgedForces judged = JudgeForces(posed, about.law, *ParseRational(about.accuracy), reply.f);
-  examined.kind = !judged.is_known ? "unjudged" : judged.miss.empty() ? "passed" : "silent-wrong";
-  examined.what = judged.miss;
-  examined.error = judged.error;
-  examined.misses_coulomb = judged.misses_coulomb;
-  examined.is_neither = judged.is_neither;
-  return examined;
+  Examined judged = JudgeForces(posed, about.law, *ParseRational(about.accuracy), reply.f);
+  if (!reply.is_in_range) judged.what = "out-of-range";  // and not finite
+  return judged;
 }
 
 void MemoryWindows::Add(std::int64_t calls, std::int64_t memory) {

@@ -19,41 +19,34 @@
 namespace stiction {
 namespace {
 
-// Functions of the library; `error` says what is missing.
+// Functions of the library.
 struct Library {
   decltype(&stiction_solver_describe) describe = nullptr;
   decltype(&stiction_solver_create) create = nullptr;
   decltype(&stiction_solver_solve) solve = nullptr;
   decltype(&stiction_solver_destroy) destroy = nullptr;
-  std::string error;
 };
 
 template <class Function>
-void Find(void* handle, const char* name, Function& function, std::string& error) {
+void Find(void* handle, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(handle, name));
-  if (function == nullptr && error.empty()) error = fmt::format("no function {}", name);
+  if (function == nullptr) throw InputError(fmt::format("no function {}", name));
 }
 
+// InputError says what is missing.
 Library Load(const std::string& file) {
-  Library library;
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    library.error = dlerror();
-    return library;
-  }
-  Find(handle, "stiction_solver_describe", library.describe, library.error);
-  Find(handle, "stiction_solver_create", library.create, library.error);
-  Find(handle, "stiction_solver_solve", library.solve, library.error);
-  Find(handle, "stiction_solver_destroy", library.destroy, library.error);
-  if (!library.error.empty()) return library;
+  if (handle == nullptr) throw InputError(dlerror());
+  Library library;
+  Find(handle, "stiction_solver_describe", library.describe);
+  Find(handle, "stiction_solver_create", library.create);
+  Find(handle, "stiction_solver_solve", library.solve);
+  Find(handle, "stiction_solver_destroy", library.destroy);
   const stiction_solver_info* const info = library.describe();
-  if (info == nullptr) {
-    library.error = "stiction_solver_describe returns nothing";
-    return library;
-  }
+  if (info == nullptr) throw InputError("stiction_solver_describe returns nothing");
   const int interface = info->interface;
   if (interface != STICTION_SOLVER_INTERFACE)
-    library.error = fmt::format("interface {}, expected {}", interface, int{STICTION_SOLVER_INTERFACE});
+    throw InputError(fmt::format("interface {}, expected {}", interface, int{STICTION_SOLVER_INTERFACE}));
   return library;
 }
 
@@ -127,9 +120,11 @@ int AnswerAll(const std::string& file) {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  const Library library = Load(file);
-  if (!library.error.empty()) {
-    WriteAll(out, JsonText({{"error", library.error}}) + "\n");
+  Library library;
+  try {
+    library = Load(file);
+  } catch (const InputError& error) {
+    WriteAll(out, JsonText({{"error", error.what()}}) + "\n");
     return 1;
   }
   const stiction_solver_info& info = *library.describe();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search/under_test/judge_forces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +12,9 @@
 #include "certify/exact/properties.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/record/kinds.h"
 #include "search/under_test/solver_process.h"
+#include "solver/problem/check.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/lenient.h"
 
@@ -23,11 +27,6 @@ bool IsCoulombs(SolverLaw law, int dimension) {
   return law == SolverLaw::kFrictionless || law == SolverLaw::kCoulomb ||
          (law == SolverLaw::kPyramid && dimension == 2);
 }
-
-struct Bounds {
-  std::vector<Rational> low, high;  // by row
-  std::vector<bool> has_low, has_high;
-};
 
 // What a condition misses, and its name.
 struct Missed {
@@ -106,6 +105,13 @@ std::optional<ForceVector> NormalForces(const ContactProblem<double>& posed) {
 
 }  // namespace
 
+bool Examined::Fails() const { return IsOfSolver(kind); }
+
+std::string Examined::Signature(std::size_t contacts) const {
+  STICTION_CHECK(Fails(), "a signature is of a failure");
+  return fmt::format("{}{}{}-{}c", kind, what.empty() ? "" : "-", what, contacts);
+}
+
 std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& posed, SolverLaw law,
                                               const ForceVector& f) {
   std::vector<Rational> limits(posed.rows(), Rational(0));
@@ -178,9 +184,9 @@ bool IsSolved(const ContactProblem<double>& posed, double accuracy, const Eigen:
          BoundErrors(posed, FrictionLaw::kCoulomb, f, GateOf<double>(accuracy)).Largest() <= accuracy;
 }
 
-JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
-                         const Eigen::VectorXd& f) {
-  JudgedForces judged;
+Examined JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                     const Eigen::VectorXd& f) {
+  Examined judged = {.kind = "passed", .what = "", .says_solved = true};
   const bool is_coulombs = IsCoulombs(law, posed.dimension);
   if (is_coulombs && IsSolved(posed, std::min(ToDouble(accuracy), kSolvedResidual<double>), f)) {
     const Eigen::VectorXd a = posed.A * f + posed.b;
@@ -201,10 +207,7 @@ JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, con
     if (error > accuracy) worst = contacts.Of(found.contact, nullptr);
   } else {
     const auto limits = LimitsOf(posed, law, exact_f);
-    if (!limits) {
-      judged.is_known = false;
-      return judged;
-    }
+    if (!limits) return {.kind = "unjudged", .what = "", .says_solved = true};
     for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
       const Missed missed = contacts.Of(i, &*limits);
       worst.Add(missed.amount, missed.name);
@@ -219,17 +222,19 @@ JudgedForces JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, con
   }
   // In space what is left is the direction of friction; in the plane a mode that is missed by a little in each
   // part.
-  judged.miss = worst.amount * 2 >= error ? worst.name : "friction-askew";
+  judged.what = worst.amount * 2 >= error ? worst.name : "friction-askew";
+  judged.kind = "silent-wrong";
   return judged;
 }
 
 }  // namespace
 
-JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
-                         const Eigen::VectorXd& f) {
-  if (!f.allFinite()) return {.error = std::numeric_limits<double>::infinity(), .miss = ""};
-  JudgedForces judged = JudgeLoaded(posed, law, accuracy, f);
-  if (judged.miss.empty() && !judged.misses_coulomb) return judged;
+Examined JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                     const Eigen::VectorXd& f) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!f.allFinite()) return {.kind = "not-finite", .what = "", .error = kInfinity, .says_solved = true};
+  Examined judged = JudgeLoaded(posed, law, accuracy, f);
+  if (judged.what.empty() && !judged.misses_coulomb) return judged;
   Eigen::VectorXd loaded = f;
   const Rational of_idle = TakeOutIdle(posed, accuracy, loaded);
   if (loaded == f) return judged;

@@ -24,6 +24,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corpus/exact_problem.h"
@@ -31,21 +32,30 @@
 
 namespace stiction {
 
-struct JudgedForces {
-  bool is_known = true;  // false under `findex` where the problem of the normals has more than one solution
-  double error = 0;      // relative; infinite where a force is not finite
-  std::string miss;      // what is missed by more than the accuracy: "pulls", "moves-inward",
-                         // "presses-and-separates", "moves" (bilateral), "friction-beyond-limit",
-                         // "friction-drives-slip", "slips-below-limit", "friction-askew"; empty: it passes
+// What became of a problem that a solver under test was given.
+struct Examined {
+  std::string_view kind;  // of a failure (corpus/record/kinds.h); "passed"; "refused", "unjudged": none that is
+                          // shown; "stopped": the search is
+  // In which way; may be empty: signal; what is missed by more than the accuracy: "pulls", "moves-inward",
+  // "presses-and-separates", "moves" (bilateral), "friction-beyond-limit", "friction-drives-slip",
+  // "slips-below-limit", "friction-askew".
+  std::string what;
+  double error = 0;             // of what is called solved, relative; infinite where a force is not finite
   bool misses_coulomb = false;  // passes, and misses Coulomb's law by more than the accuracy
   bool is_neither = false;  // by Coulomb's law: passes, and has a strict error (errors.h) above the accuracy
+  bool says_solved = false;
+
+  // "silent-wrong-pulls-2c": what findings are grouped by. Requires a failure.
+  std::string Signature(std::size_t contacts) const;
+  bool Fails() const;
 };
 
 ExactProblem ExactOf(const ContactProblem<double>& problem);
 
-// The problem as posed (solver_process.h).
-JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
-                         const Eigen::VectorXd& f);
+// The problem as posed (solver_process.h); "unjudged" under `findex` where the problem of the normals has more
+// than one solution.
+Examined JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
+                     const Eigen::VectorXd& f);
 
 // Limits of the friction of each row, 0 of normals, under the laws that are judged row by row: of `box` and
 // `findex` whatever the forces are. Empty under `findex` where the problem of the normals has more than one

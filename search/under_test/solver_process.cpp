@@ -199,8 +199,8 @@ std::vector<double> FixedBounds(const ContactProblem<double>& problem) {
   return bounds;
 }
 
-SolverProcess::SolverProcess(std::vector<std::string> command, SolverPatience patience)
-    : command_(std::move(command)), patience_(std::move(patience)) {
+SolverProcess::SolverProcess(std::vector<std::string> command, std::function<bool()> stopped, double greeting)
+    : command_(std::move(command)), stopped_(std::move(stopped)), greeting_(greeting) {
   Start();
 }
 
@@ -212,9 +212,9 @@ void SolverProcess::Start() {
   const std::string& file = command_.back();
   process_ = std::make_unique<LineProcess>(
       command_, "a library NAME.so or a program that may be executed",
-      LineBounds{kSolverLine, patience_.stopped, [this](std::string_view text) { TakeErrors(text); }});
+      LineBounds{kSolverLine, stopped_, [this](std::string_view text) { TakeErrors(text); }});
   const auto start = LineProcess::Clock::now();
-  const LineProcess::Line line = process_->Read(LineProcess::After(patience_.greeting));
+  const LineProcess::Line line = process_->Read(LineProcess::After(greeting_));
   const double took = std::chrono::duration<double>(LineProcess::Clock::now() - start).count();
   if (line.end != LineProcess::End::kLine) {
     const std::optional<int> status =
@@ -231,7 +231,7 @@ void SolverProcess::Start() {
                         ": found another solver than before, expected the same one as long as it is tested");
   about_ = std::move(about);
   // The next time no longer than it takes, or as a problem may.
-  patience_.greeting = std::min(patience_.greeting, kSolverPatience * std::max(kSolverSeconds, took));
+  greeting_ = std::min(greeting_, kSolverPatience * std::max(kSolverSeconds, took));
   if (statm_ >= 0) close(statm_);
   statm_ = open(fmt::format("/proc/{}/statm", process_->id()).c_str(), O_RDONLY | O_CLOEXEC);
   first_memory_ = last_memory_ = Memory();
@@ -250,7 +250,7 @@ bool SolverProcess::StartAgain(SolverReply& reply) {
   } catch (const InputError&) {
     process_.reset();
     reply = {.end = SolverEnd::kCrashed, .f = {}, .how = std::string(kNoGreeting)};
-    if (patience_.stopped && patience_.stopped()) reply = {.end = SolverEnd::kStopped, .f = {}, .how = ""};
+    if (stopped_()) reply = {.end = SolverEnd::kStopped, .f = {}, .how = ""};
     return false;
   }
 }
@@ -362,8 +362,7 @@ SolverReply SolverProcess::Ask(const std::string& request, int rows, double seco
 SolverReply SolverProcess::Died() {
   const bool was_full = last_memory_ - first_memory_ > kSolverBytes / 2;
   const std::optional<int> status = process_->WaitStatus();
-  if (!status && patience_.stopped && patience_.stopped())
-    return {.end = SolverEnd::kStopped, .f = {}, .how = ""};
+  if (!status && stopped_()) return {.end = SolverEnd::kStopped, .f = {}, .how = ""};
   const std::string how = !status    ? (process_->IsGuarded() ? "closed" : "killed-its-guard")
                           : was_full ? "out-of-memory"
                                      : HowItEnded(*status);

@@ -56,15 +56,13 @@ ContactProblem<double> PosedFor(SolverLaw law, const ContactProblem<double>& pro
 // row, abs(bN) / A_NN.
 std::vector<double> FixedBounds(const ContactProblem<double>& problem);
 
-struct SolverPatience {
-  std::function<bool()> stopped = {};  // ends any wait: the call is kStopped, and the solver has no process
-  double greeting = kGreetingSeconds;
-};
-
 class SolverProcess {
  public:
   // Starts it to ask what it is. InputError where it cannot be run, or says something else than it should.
-  explicit SolverProcess(std::vector<std::string> command, SolverPatience patience = {});
+  // `stopped` ends any wait: the call is kStopped, and the solver has no process. `greeting`: s.
+  explicit SolverProcess(
+      std::vector<std::string> command, std::function<bool()> stopped = [] { return false; },
+      double greeting = kGreetingSeconds);
   ~SolverProcess();
 
   const SolverUnderTest& about() const { return about_; }
@@ -91,7 +89,8 @@ class SolverProcess {
   double SecondsInQueue() const;
 
   std::vector<std::string> command_;
-  SolverPatience patience_;
+  std::function<bool()> stopped_;
+  double greeting_;
   SolverUnderTest about_;
   bool keeps_memory_ = false;
   std::unique_ptr<LineProcess> process_;

@@ -13,6 +13,7 @@
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "search/adversary/optimized_unit.h"
 #include "search/under_test/examine.h"
 #include "search/under_test/simple_scene.h"
 #include "search/units/collector.h"
@@ -31,6 +32,9 @@ constexpr double kSecondsOfCandidate = 0.1;
 // An error that is kept while a problem is made simpler, in accuracies that the solver states: one that is
 // easily seen, and not one that another rounding hides.
 constexpr int kClearError = 10;
+
+constexpr double kLeastError = 1e-30, kMostError = 1e30;  // of a logarithm
+constexpr int kTurnsOfTime = 3;                           // of which the shortest counts
 
 // Leaks are looked for where a unit's own memory grew as that of a leak does: of the problems at which it grew
 // the last ones are tried, each in few calls, and that with which it grows most in many, twice in new
@@ -97,6 +101,17 @@ class SolverUnit {
     return std::move(result_);
   }
 
+  UnitResult RunOptimized(const std::vector<Candidate>& parents, const std::function<bool()>& cancelled) {
+    process_.Restart();
+    std::int64_t index = 0;
+    UnitResult result = RunOptimizedUnit(
+        campaign_, unit_, parents, cancelled,
+        [&](Assessed& assessed, const ContactProblem<double>& problem) { Assess(index++, problem, assessed); });
+    result.record = std::move(result_.record);
+    result.candidates = std::move(result_.candidates);
+    return result;
+  }
+
  private:
   void Draw(std::int64_t index) {
     const Spending spending(meter_, &ProcessorTime::generation);
@@ -123,8 +138,44 @@ class SolverUnit {
     tally.neither += examined.is_neither;
     if (examined.kind == "crash" || examined.kind == "hang")
       lost_ += examined.what == kAsleep || examined.what == kNoGreeting ? kProcessesOfSleep : 1;
-    if (examined.Fails()) Find(index, examined, 0);
+    if (examined.Fails()) FindDrawn(index, examined);
     WatchMemory(index);
+  }
+
+  // A candidate of an optimizer, as number `index`.
+  void Assess(std::int64_t index, const ContactProblem<double>& problem, Assessed& assessed) {
+    posed_ = PosedFor(campaign_.solver.law, problem);
+    const Examined examined = Examine(process_, posed_);
+    if (examined.Fails()) {
+      Find(index, examined, 0, [&] {
+        const std::string_view generator = Row(assessed.candidate.generator).name;
+        ProblemFile file = FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit_, index));
+        file.problem = ExactOf(posed_);
+        if (campaign_.solver.law == SolverLaw::kFrictionless) file.scene = {};  // it has friction
+        return file;
+      });
+    }
+    const std::optional<double> value = campaign_.objective == "time" ? TimeOf(examined) : ErrorOf(examined);
+    assessed.worth.value = value;
+    assessed.behaviour = {examined.says_solved, static_cast<std::int64_t>(std::floor(value.value_or(0)))};
+  }
+
+  static std::optional<double> ErrorOf(const Examined& examined) {
+    if (!examined.says_solved || examined.kind == "not-finite" || examined.kind == "unjudged")
+      return std::nullopt;
+    return std::log10(std::clamp(examined.error, kLeastError, kMostError));
+  }
+
+  // Of what it answers, in seconds; Examine has warmed it up.
+  std::optional<double> TimeOf(const Examined& examined) {
+    if (examined.kind == "crash" || examined.kind == "hang") return std::nullopt;
+    double least = kSolverSeconds;
+    for (int turn = 0; turn < kTurnsOfTime; ++turn) {
+      const double before = process_.Seconds();
+      process_.Solve(posed_);
+      least = std::min(least, process_.Seconds() - before);
+    }
+    return std::log10(std::max(least, 1e-9));
   }
 
   void WatchMemory(std::int64_t index) {
@@ -158,7 +209,7 @@ class SolverUnit {
       if (bytes == 0 || cancelled()) return;
     }
     ++TallyOfDrawn().leak;
-    Find(worst, {.kind = "leak", .what = ""}, bytes);
+    FindDrawn(worst, {.kind = "leak", .what = ""}, bytes);
   }
 
   // Bytes that memory grows by in the second half of the calls with this problem alone.
@@ -174,14 +225,25 @@ class SolverUnit {
     return process_.Memory() - half;
   }
 
-  void Find(std::int64_t index, const Examined& examined, std::int64_t leak) {
-    const std::string signature = examined.Signature(posed_.contacts.size());
+  void FindDrawn(std::int64_t index, const Examined& examined, std::int64_t leak = 0) {
+    Find(index, examined, leak, [&] { return FileOf(campaign_, unit_, index, ExactOf(posed_)); });
+  }
+
+  // What the solver did with problem `index`, of which file() is the problem; `leak`: bytes of a call.
+  template <class MakeFile>
+  void Find(std::int64_t index, const Examined& examined, std::int64_t leak, MakeFile file) {
+    std::string signature = examined.Signature(posed_.contacts.size());
     if (++result_.record.signatures[signature] > 1) return;
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
-    result_.candidates.push_back(
-        SolverFinding(campaign_, unit_, index, process_,
-                      JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))), examined, leak));
-    tell_(result_.candidates.back());
+    Finding& finding = result_.candidates.emplace_back(FindingAt(campaign_, task_, unit_, index));
+    finding.signature = std::move(signature);
+    finding.kind = examined.kind;
+    finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
+    finding.exact_outcome = Name(Outcome::kUndecided);
+    finding.problem = JsonText(ToJson(file()));
+    finding.facts = JsonText(
+        {{"library", process_.IsLibrary()}, {"found", FactsOf(examined, posed_.contacts.size(), leak)}});
+    tell_(finding);
   }
 
   const Campaign& campaign_;
@@ -221,46 +283,28 @@ std::optional<ContactProblem<double>> InDoubles(const ExactProblem& problem) {
   return posed;
 }
 
+bool EachRowMoves(const ExactProblem& problem) {
+  bool all = true;
+  for (int i = 0; i < problem.rows(); ++i) all = all && problem.A(i, i) > 0;
+  return all;
+}
+
 // What a problem that is made simpler keeps: it is one that bodies make, with A symmetric and semidefinite and
 // b in its range; every row moves under its own force, and something acts, where that was so at first.
-class Promises {
- public:
-  explicit Promises(const ExactProblem& found)
-      : found_(found), moves_(EachRowMoves(found)), is_loaded_(!found.b.isZero()) {}
-
-  bool Hold(const ExactProblem& problem) const {
-    const bool is_found = problem.rows() == found_.rows() && problem.A == found_.A && problem.b == found_.b;
-    if (is_found) return true;  // of doubles, which are not quite what bodies make
-    if ((moves_ && !EachRowMoves(problem)) || (is_loaded_ && problem.b.isZero())) return false;
-    return IsSymmetric(problem) && IsPositiveSemidefinite(problem) && IsInRange(problem);
-  }
-
- private:
-  static bool EachRowMoves(const ExactProblem& problem) {
-    for (int i = 0; i < problem.rows(); ++i)
-      if (problem.A(i, i) <= 0) return false;
-    return true;
-  }
-
-  const ExactProblem& found_;
-  bool moves_, is_loaded_;
-};
+bool KeepsPromises(const ExactProblem& found, const ExactProblem& problem) {
+  const bool is_found = problem.rows() == found.rows() && problem.A == found.A && problem.b == found.b;
+  if (is_found) return true;  // of doubles, which are not quite what bodies make
+  if ((EachRowMoves(found) && !EachRowMoves(problem)) || (!found.b.isZero() && problem.b.isZero()))
+    return false;
+  return IsSymmetric(problem) && IsPositiveSemidefinite(problem) && IsInRange(problem);
+}
 
 // Whether a failure is the one that is sought: the same in kind and way and, of what is wrong, as clear.
-class Sought {
- public:
-  Sought(const Examined& sought, const SolverUnderTest& about)
-      : sought_(sought), least_(std::min(sought.error, kClearError * std::stod(about.accuracy))) {}
-
-  bool FailsAlike(const Examined& examined) const {
-    return examined.kind == sought_.kind && examined.what == sought_.what &&
-           (examined.kind != "silent-wrong" || examined.error >= least_);
-  }
-
- private:
-  const Examined& sought_;
-  double least_;
-};
+bool FailsAlike(const Examined& sought, const Examined& examined, const SolverUnderTest& about) {
+  return examined.kind == sought.kind && examined.what == sought.what &&
+         (examined.kind != "silent-wrong" ||
+          examined.error >= std::min(sought.error, kClearError * std::stod(about.accuracy)));
+}
 
 // How a problem fails, of a kind: leaks are looked for where one is sought, in so many calls.
 Examined FailureOf(SolverProcess& process, const ContactProblem<double>& posed, std::string_view kind,
@@ -288,25 +332,10 @@ std::optional<UnitResult> RunSolverUnit(const Campaign& campaign, std::int64_t u
   return SolverUnit(campaign, unit, process, tell).Run(cancelled);
 }
 
-Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t index,
-                      const SolverProcess& process, const std::string& problem, const Examined& examined,
-                      std::int64_t leak) {
-  const Task task = TaskOf(Schedule(campaign), unit);
-  const std::size_t contacts = static_cast<std::size_t>(task.contacts);
-  Finding finding;
-  finding.signature = examined.Signature(contacts);
-  finding.kind = examined.kind;
-  finding.unit = unit;
-  finding.index = index;
-  finding.generator = Row(task.generator).name;
-  finding.contacts = task.contacts;
-  finding.policy = PolicyName(campaign.policies.front());
-  finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
-  finding.exact_outcome = Name(Outcome::kUndecided);
-  finding.problem = problem;
-  finding.facts =
-      JsonText(Json{{"library", process.IsLibrary()}, {"found", FactsOf(examined, contacts, leak)}});
-  return finding;
+UnitResult RunOptimizedSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
+                                  const std::vector<Candidate>& parents, const std::function<bool()>& cancelled,
+                                  const TellFinding& tell) {
+  return SolverUnit(campaign, unit, process, tell).RunOptimized(parents, cancelled);
 }
 
 std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaign& campaign,
@@ -326,26 +355,25 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   };
   const Examined sought = alone(problem);
   if (cancelled()) return std::nullopt;
-  const Sought like(sought, campaign.solver);
+  const auto alike = [&](const Examined& examined) { return FailsAlike(sought, examined, campaign.solver); };
   const auto fails = [&](const ContactProblem<double>& posed) {
-    return like.FailsAlike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
+    return alike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
   };
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
   facts["alone"] = again;
   finished.existence = CertificateOfSolution(law, problem, campaign.limits);
-  const Promises kept(problem);
   MinimizeOptions options;
   options.cancelled = cancelled;
   options.keeps = [&](const ExactProblem& candidate) {
     const auto posed = InDoubles(candidate);
-    return posed && kept.Hold(candidate) && fails(*posed);
+    return posed && KeepsPromises(problem, candidate) && fails(*posed);
   };
   if (again && options.keeps(problem)) {  // also after a problem, as minimizing asks it
     Minimized minimized = Minimize(problem, options);
     if (minimized.cancelled || cancelled()) return std::nullopt;
     const Examined last = alone(minimized.problem);
     if (cancelled()) return std::nullopt;
-    if (like.FailsAlike(last)) {
+    if (alike(last)) {
       ProblemFile file;
       file.name = finding.signature;
       file.problem = minimized.problem;
@@ -356,7 +384,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
       facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
     }
     const auto scene = SimpleSceneOf(finding, campaign, fails, cancelled);
-    if (scene && like.FailsAlike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
+    if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
       facts["scene"] = ToJson(*scene);
   }
   if (cancelled()) return std::nullopt;

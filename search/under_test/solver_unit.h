@@ -11,8 +11,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
+#include <vector>
 
+#include "search/adversary/candidate.h"
 #include "search/campaign.h"
 #include "search/under_test/examine.h"
 #include "search/under_test/solver_process.h"
@@ -28,11 +29,13 @@ std::optional<UnitResult> RunSolverUnit(
     const Campaign& campaign, std::int64_t unit, SolverProcess& process, const std::function<bool()>& cancelled,
     const TellFinding& tell = [](const Finding&) {});
 
-// What the solver did with problem `index` of a unit, not finished yet. `problem`: as a file; `leak`: bytes of
-// a call.
-Finding SolverFinding(const Campaign& campaign, std::int64_t unit, std::int64_t index,
-                      const SolverProcess& process, const std::string& problem, const Examined& examined,
-                      std::int64_t leak = 0);
+// The same with an objective: an optimizer's candidates in the place of random problems
+// (adversary/optimized_unit.h), and what the solver does wrong on the way as findings. These are counted by
+// signature; nothing else is, since nothing is drawn at random. Of the objective `time` the unit depends on the
+// machine. May end early when cancelled.
+UnitResult RunOptimizedSolverUnit(const Campaign& campaign, std::int64_t unit, SolverProcess& process,
+                                  const std::vector<Candidate>& parents, const std::function<bool()>& cancelled,
+                                  const TellFinding& tell);
 
 // The finding seen again with the problem alone in a new process, and made small while it fails alike: the same
 // kind of failure, in the same way. Beside it the certificate that there is a solution, where one is known. A

@@ -7,11 +7,11 @@
 
 namespace stiction {
 
-bool Backlog::Order::operator()(const Entry& left, const Entry& right) const {
+bool Backlog::Entry::operator<(const Entry& other) const {
   const auto rank = [](const Entry& e) {
     return std::tie(e.tries, e.finding.contacts, e.finding.unit, e.finding.index, e.finding.signature);
   };
-  return rank(left) < rank(right);
+  return rank(*this) < rank(other);
 }
 
 void Backlog::Add(Finding finding) {

@@ -99,19 +99,13 @@ void Collector::FindDisagreementOfMethods(const Place& place, Outcome published,
 
 bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
                      const ExactProblem& problem, const Json* facts) {
-  const Policy& policy = campaign_.policies[place.policy];
   signature = Named(std::move(signature), place.policy);
   if (++result_.record.signatures[signature] > 1) return false;
   const bool full = static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
   if (full && !IsGrave(kind)) return true;
-  Finding finding;
+  Finding finding = FindingAt(campaign_, task_, unit_, place.index, place.policy);
   finding.signature = std::move(signature);
   finding.kind = kind;
-  finding.unit = unit_;
-  finding.index = place.index;
-  finding.generator = Row(task_.generator).name;
-  finding.contacts = task_.contacts;
-  finding.policy = PolicyName(policy);
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
   finding.problem = JsonText(ToJson(FileOf(campaign_, unit_, place.index, problem)));

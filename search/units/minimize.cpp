@@ -115,8 +115,8 @@ class Minimizer {
     while (progress && !Cancelled()) {
       progress = Try(WithoutBilateral(result_.problem));
       progress |= DropContacts();
-      progress |= DropFriction();
-      progress |= StretchTangents();
+      progress |= ChangeContacts(WithoutFriction);
+      progress |= ChangeContacts(Stretched);
       progress |= RoundAll();
       progress |= RoundFactors();
       progress |= DivideCommonFactors();
@@ -192,26 +192,22 @@ class Minimizer {
     return progress;
   }
 
-  bool DropFriction() {
+  template <class Change>
+  bool ChangeContacts(Change change) {
     bool progress = false;
-    for (int contact = 0; contact < ContactCount(); ++contact) {
-      progress |= Try(WithoutFriction(result_.problem, contact));
-    }
+    for (int contact = 0; contact < ContactCount(); ++contact)
+      progress |= Try(change(result_.problem, contact));
     return progress;
   }
 
-  bool StretchTangents() {
-    bool progress = false;
-    for (int contact = 0; contact < ContactCount(); ++contact)
-      progress |= Try(Stretched(result_.problem, contact));
-    return progress;
+  std::array<ExactProblem, 3> InSeveralUnits() const {
+    return {Stretched(result_.problem, -1), Equilibrated(result_.problem), result_.problem};
   }
 
   // Small integers at once, in several units and with a ridge that makes A definite. The first size that works
   // is taken.
   bool RoundAll() {
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     const std::array<Ridge, 6> ridges = {
         {{0, 0}, {1, 0}, {0, Rational(1, 64)}, {0, Rational(1, 16)}, {0, Rational(1, 4)}, {1, Rational(1, 4)}}};
     for (const std::int64_t size : kRoundSizes) {
@@ -227,8 +223,7 @@ class Minimizer {
   }
 
   bool RoundFactors() {
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     for (int bits = 1; bits <= 24; ++bits) {
       for (const ExactProblem& base : bases) {
         if (Try(WithRoundedFactors(base, bits))) return true;
@@ -242,26 +237,27 @@ class Minimizer {
     return Try(WithoutCommonFactors(result_.problem).second) || progress;
   }
 
+  // Entries (i, j) of A with their mirrors; j = rows stands for b_i.
+  std::vector<std::pair<int, int>> Places() const {
+    const int rows = result_.problem.rows();
+    std::vector<std::pair<int, int>> places;
+    for (int i = 0; i < rows; ++i) {
+      for (int j = i; j <= rows; ++j) places.emplace_back(i, j);
+    }
+    return places;
+  }
+
   bool SimplifyEntries() {
     bool progress = false;
-    for (int i = 0; i < result_.problem.rows(); ++i) {
-      for (int j = i; j <= result_.problem.rows(); ++j) progress |= SimplifyEntry(i, j);
-    }
+    for (const auto& place : Places()) progress |= SimplifyEntry(place);
     return progress;
   }
 
-  // Entry (i, j) of A with its mirror; j = rows stands for b_i.
-  bool SimplifyEntry(int i, int j) {
-    const bool of_b = j == result_.problem.rows();
-    const Rational value = of_b ? result_.problem.b[i] : result_.problem.A(i, j);
-    for (const Rational& number : SimplerNumbers(value, !of_b && i == j)) {
+  bool SimplifyEntry(const std::pair<int, int>& place) {
+    const bool positive = place.first == place.second;
+    for (const Rational& number : SimplerNumbers(EntryAt(result_.problem, place), positive)) {
       ExactProblem candidate = result_.problem;
-      if (of_b) {
-        candidate.b[i] = number;
-      } else {
-        candidate.A(i, j) = number;
-        candidate.A(j, i) = number;
-      }
+      SetEntryAt(candidate, place, number);
       if (Try(candidate)) return true;
     }
     return false;
@@ -272,8 +268,7 @@ class Minimizer {
   // again.
   bool RoundAtRandom() {
     if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
-    const std::array<ExactProblem, 3> bases = {Stretched(result_.problem, -1), Equilibrated(result_.problem),
-                                               result_.problem};
+    const std::array<ExactProblem, 3> bases = InSeveralUnits();
     for (int size = 2; size <= 12; ++size) {
       for (int attempt = 0; attempt < kAttemptsOfSize && !Cancelled(); ++attempt) {
         Choices lots(ProblemSeed(1994, static_cast<std::uint64_t>(size), static_cast<std::uint64_t>(attempt)));
@@ -286,12 +281,8 @@ class Minimizer {
 
   // Two entries at once, each one more, one less, zero, or turned.
   bool ChangePairs() {
-    const int rows = result_.problem.rows();
-    if (rows > kMostRowsOfGlobalPasses) return false;
-    std::vector<std::pair<int, int>> places;  // as in SimplifyEntry
-    for (int i = 0; i < rows; ++i) {
-      for (int j = i; j <= rows; ++j) places.emplace_back(i, j);
-    }
+    if (result_.problem.rows() > kMostRowsOfGlobalPasses) return false;
+    const std::vector<std::pair<int, int>> places = Places();
     for (std::size_t p = 0; p < places.size(); ++p) {
       for (std::size_t q = 0; q < p && !Cancelled(); ++q) {
         for (const Rational& first : Neighbours(EntryAt(result_.problem, places[p]))) {

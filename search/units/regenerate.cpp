@@ -52,4 +52,15 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
   return file;
 }
 
+Finding FindingAt(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
+                  std::size_t policy) {
+  Finding finding;
+  finding.unit = unit;
+  finding.index = index;
+  finding.generator = Row(task.generator).name;
+  finding.contacts = task.contacts;
+  finding.policy = PolicyName(campaign.policies[policy]);
+  return finding;
+}
+
 }  // namespace stiction

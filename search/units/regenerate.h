@@ -27,6 +27,10 @@ Regenerated Regenerate(const Campaign& campaign, const Task& task, std::int64_t 
 ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t index,
                    const ExactProblem& problem);
 
+// A finding at that problem, under a policy of the campaign: what it is has to be filled in.
+Finding FindingAt(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index,
+                  std::size_t policy = 0);
+
 }  // namespace stiction
 
 #endif  // STICTION_SEARCH_UNITS_REGENERATE_H_

@@ -16,8 +16,10 @@
 #define STICTION_SEARCH_UNITS_UNIT_H_
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "search/campaign.h"
@@ -25,6 +27,8 @@
 #include "search/units/exact_methods.h"
 
 namespace stiction {
+
+class Kernel;  // unit.cpp
 
 struct UnitResult {
   std::int64_t problems = 0;
@@ -55,8 +59,10 @@ class UnitRunner {
   UnitResult Run(std::int64_t unit);
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  Campaign campaign_;
+  UnitSolvers solvers_;
+  std::vector<Task> schedule_;
+  std::map<std::tuple<int, int, bool>, std::unique_ptr<Kernel>> kernels_;  // contacts, dimension, other kinds
 };
 
 }  // namespace stiction

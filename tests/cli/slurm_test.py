@@ -195,7 +195,7 @@ class Slurm(cli.TestCase):
 
     def test_a_name_that_looks_like_a_mark_is_a_name(self):
         folder = self.make(1, problems=2000, name="at@UNITS@@DIR@")
-        self.assertIn("/at@UNITS@@DIR@'", (folder / "task.sh").read_text())
+        self.assertIn("/at@UNITS@@DIR@\n", (folder / "task.sh").read_text())
         self.assertEqual(self.script(folder, "task.sh", 0).returncode, 0)
 
     def test_what_cannot_be_cut_is_refused(self):

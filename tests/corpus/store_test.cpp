@@ -222,8 +222,8 @@ TEST_CASE("store: a block closes with its last unit, and the total stays", "[slo
 
   Add(store, 1, shard);
   REQUIRE(BlockCount(store) == 1);
-  CHECK(store.Blocks()[0].shard == shard);
-  CHECK(store.Blocks()[0].block == 0);
+  CHECK(store.Blocks()[0].first == shard);
+  CHECK(store.Blocks()[0].second == 0);
   CHECK(store.Total() == total);
   const UnitSet units = store.Units();
   CHECK(units.Count() == kBlock);

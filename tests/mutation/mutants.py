@@ -228,12 +228,13 @@ bug("check_unsafe", "py-unsafe", "value <= 0", "True", "unsafe: a positive deter
 
 bug("AddFriction", "solver-drives", "force * a > 0", "force * a < 0", "friction that drives the slip is called less than its limit")
 bug("TakeOutIdle", "solver-idle", "largest > accuracy * accuracy", "false", "any force of idle contacts is none")
-bug("Hold", "solver-hypotheses", "IsSymmetric(problem) && IsPositiveSemidefinite(problem)", "IsSymmetric(problem)",
+bug("KeepsPromises", "solver-hypotheses", "IsSymmetric(problem) && IsPositiveSemidefinite(problem)", "IsSymmetric(problem)",
     "a finding is minimized to a problem that is not semidefinite")
-bug("Hold", "solver-row", "moves_ && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
-bug("FailsAlike", "solver-alike", "examined.kind == sought_.kind && examined.what == sought_.what",
-    "examined.kind == sought_.kind", "a finding is minimized to another failure of its kind")
-bug("FailsAlike", "solver-clear", "examined.error >= least_", "true", "a finding is minimized to the edge of the accuracy")
+bug("KeepsPromises", "solver-row", "EachRowMoves(found) && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
+bug("FailsAlike", "solver-alike", "examined.kind == sought.kind && examined.what == sought.what",
+    "examined.kind == sought.kind", "a finding is minimized to another failure of its kind")
+bug("FailsAlike", "solver-clear", "examined.error >= std::min(sought.error, kClearError * std::stod(about.accuracy))", "true",
+    "a finding is minimized to the edge of the accuracy")
 bug("Growth", "leak-falls", "growth <= 0 || growth + slack < kSteady * before * span", "growth <= 0",
     "what fills up is a leak")
 bug("AsPosed", "solver-scene", "PosedFor(law, RoundedOf(scene, nullptr))", "RoundedOf(scene, nullptr)",

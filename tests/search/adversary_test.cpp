@@ -276,21 +276,20 @@ TEST_CASE("adversary: what is learned beats what is drawn at random", "[slow]") 
 }
 
 TEST_CASE("adversary: a value over doubles that rationals deny is no value") {
-  Assessor assessor(*FindObjective("period"), {}, Campaign().limits);
-  Assessed assessed = assessor.Look(RandomCandidate({GeneratorId::kPsd, 2, {1, 1}, false, {}}, 7));
+  Attempt attempt(Problem("period", GeneratorId::kPsd, 2, 1));
+  Assessed assessed = attempt.Look(RandomCandidate({GeneratorId::kPsd, 2, {1, 1}, false, {}}, 7));
   REQUIRE_FALSE(assessed.worth.value.has_value());  // it does not loop
   assessed.worth.value = 5;                         // what a mistaken run might say
-  assessor.Confirm(assessed);
+  attempt.Confirm(assessed);
   CHECK_FALSE(assessed.worth.value.has_value());
-  CHECK(assessor.denied() == 1);
-  CHECK(assessor.confirmations() == 1);
-  assessor.Confirm(assessed);
-  CHECK(assessor.confirmations() == 1);
+  CHECK(attempt.found().denied == 1);
+  CHECK(attempt.found().confirmations == 1);
+  attempt.Confirm(assessed);
+  CHECK(attempt.found().confirmations == 1);
 }
 
 TEST_CASE("adversary: elites keep one of every behaviour, the better one, and no more than there is room for") {
-  Assessor assessor(*FindObjective("steps"), {}, Campaign().limits);
-  Elites elites(assessor);
+  Attempt attempt(Problem("steps", GeneratorId::kPsd, 2, 1));
   const auto make = [](std::int64_t behaviour, double value) {
     Assessed assessed;
     assessed.behaviour = {0, behaviour, 0, 0, 0};
@@ -298,17 +297,17 @@ TEST_CASE("adversary: elites keep one of every behaviour, the better one, and no
     assessed.confirmed = true;
     return assessed;
   };
-  CHECK(elites.Admit(make(1, 5)));
-  CHECK_FALSE(elites.Admit(make(1, 4)));
-  CHECK(elites.Admit(make(1, 5)));  // as good: it drifts
-  CHECK(elites.Admit(make(2, 1)));
-  CHECK(elites.all().size() == 2);
-  CHECK(*elites.Best().worth.value == 5);
+  CHECK(attempt.Admit(make(1, 5)));
+  CHECK_FALSE(attempt.Admit(make(1, 4)));
+  CHECK(attempt.Admit(make(1, 5)));  // as good: it drifts
+  CHECK(attempt.Admit(make(2, 1)));
+  CHECK(attempt.found().elites.size() == 2);
+  CHECK(*attempt.Best().worth.value == 5);
   for (std::size_t k = 3; k < 200; ++k)
-    elites.Admit(make(static_cast<std::int64_t>(k), static_cast<double>(k)));
-  CHECK(elites.all().size() == Elites::kMost);
-  CHECK(*elites.Best().worth.value == 199);
-  CHECK_FALSE(elites.Admit(make(1000, 0)));  // new, but the worst
+    attempt.Admit(make(static_cast<std::int64_t>(k), static_cast<double>(k)));
+  CHECK(attempt.found().elites.size() == Attempt::kMostElites);
+  CHECK(*attempt.Best().worth.value == 199);
+  CHECK_FALSE(attempt.Admit(make(1000, 0)));  // new, but the worst
 }
 
 // ---- Campaigns ---------------------------------------------------------------------------------

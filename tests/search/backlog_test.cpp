@@ -7,7 +7,6 @@
 #include <string>
 
 #include "corpus/record/kinds.h"
-#include "search/units/finishing_time.h"
 
 namespace stiction {
 namespace {

@@ -15,7 +15,7 @@
 #include "corpus/json.h"
 #include "corpus/order_statistics.h"
 #include "corpus/record/problem_file.h"
-#include "search/generators/integer_problem.h"
+#include "search/generators/drawing.h"
 #include "solver/numeric/fast.h"
 #include "solver/published/published.ipp"
 #include "solver/solve.h"

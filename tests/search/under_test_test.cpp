@@ -38,7 +38,7 @@ ContactProblem<double> OneContact(double mu, std::array<double, 2> own, std::arr
 // The condition that is missed by more than 1e-6; "" of what passes. A problem of one row has no friction.
 std::string MissOf(const ContactProblem<double>& problem, SolverLaw law, double normal, double friction) {
   const Eigen::Vector2d f(normal, friction);
-  return JudgeForces(problem, law, Rational(1, 1000000), f.head(problem.rows())).miss;
+  return JudgeForces(problem, law, Rational(1, 1000000), f.head(problem.rows())).what;
 }
 
 constexpr SolverLaw kLawsWithFriction[] = {SolverLaw::kBox, SolverLaw::kFindex, SolverLaw::kPyramid,
@@ -98,7 +98,7 @@ TEST_CASE("under test: friction at its limit in space that is not against the sl
   problem.b = Eigen::Vector3d(-1, 2, 0);
   const auto miss = [&problem](double normal, double one, double other) {
     return JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), Eigen::Vector3d(normal, one, other))
-        .miss;
+        .what;
   };
   CHECK(miss(1, -0.5, 0) == "");
   CHECK(miss(1, 0, -0.5) == "friction-askew");
@@ -113,11 +113,11 @@ TEST_CASE("under test: what is small beside a jam is not accused, and not called
   const auto judged = [&problem](double first) {
     return JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 100000), Eigen::Vector2d(first, 10000));
   };
-  CHECK(judged(10001).miss.empty());
+  CHECK(judged(10001).what.empty());
   CHECK_FALSE(judged(10001).is_neither);
-  CHECK(judged(10001.0001).miss.empty());  // a = (1e-4, -1e-4)
+  CHECK(judged(10001.0001).what.empty());  // a = (1e-4, -1e-4)
   CHECK(judged(10001.0001).is_neither);
-  CHECK_FALSE(judged(10003).miss.empty());
+  CHECK_FALSE(judged(10003).what.empty());
   CHECK_FALSE(judged(10003).is_neither);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("under test: friction where nothing acts along the contact is held to 
   problem.A(0, 2) = problem.A(2, 0) = -0.5;
   problem.b = Eigen::Vector3d(0, 0, -1.5);  // f = (1, 0, 2); the fixed bound is 0, since b is 0 there
   const auto miss = [&problem](double friction) {
-    return JudgeForces(problem, SolverLaw::kBox, Rational(1, 1000000), Eigen::Vector3d(1, friction, 2)).miss;
+    return JudgeForces(problem, SolverLaw::kBox, Rational(1, 1000000), Eigen::Vector3d(1, friction, 2)).what;
   };
   CHECK(miss(0) == "");
   CHECK(miss(1e-12) == "");
@@ -143,8 +143,8 @@ TEST_CASE("under test: bounds of findex that are not unique leave an answer unju
   problem.A(1, 1) = problem.A(3, 3) = 1;
   problem.b = Eigen::Vector4d(-1, 0, -1, 0);
   const Eigen::Vector4d f(0.5, 0, 0.5, 0);
-  CHECK_FALSE(JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), f).is_known);
-  CHECK(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), f).miss == "");
+  CHECK(JudgeForces(problem, SolverLaw::kFindex, Rational(1, 1000000), f).kind == "unjudged");
+  CHECK(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), f).what == "");
   const Eigen::Vector4d endless(std::numeric_limits<double>::quiet_NaN(), 0, 0, 0);
   CHECK_FALSE(JudgeForces(problem, SolverLaw::kCoulomb, Rational(1, 1000000), endless).error < 1);
 }
@@ -160,34 +160,34 @@ TEST_CASE("under test: rounding at a contact on which nothing acts is held to wh
                        Eigen::Vector3d(first, 0.5, last));
   };
   const double unit = std::sqrt(0.5 / 4);  // sqrt(W / A)
-  CHECK(judged(1e-16, 0).miss == "");
-  CHECK(judged(-1e-16, 1e-16).miss == "");
-  CHECK(judged(0.9e-6 * unit, 0).miss == "");
+  CHECK(judged(1e-16, 0).what == "");
+  CHECK(judged(-1e-16, 1e-16).what == "");
+  CHECK(judged(0.9e-6 * unit, 0).what == "");
   CHECK(judged(0.9e-6 * unit, 0).error == Approx(0.9e-6));
-  CHECK(judged(1.1e-6 * unit, 0).miss == "presses-and-separates");
-  CHECK(judged(-1.1e-6 * unit, 0).miss == "pulls");
-  CHECK(judged(1e-16, 0, 1e-17).miss != "");
+  CHECK(judged(1.1e-6 * unit, 0).what == "presses-and-separates");
+  CHECK(judged(-1.1e-6 * unit, 0).what == "pulls");
+  CHECK(judged(1e-16, 0, 1e-17).what != "");
   // In other units it is the same problem.
   problem.A(0, 0) *= 1e12, problem.A(0, 2) = problem.A(2, 0) = 1e6;
-  CHECK(judged(0.9e-12 * unit, 0).miss == "");
-  CHECK(judged(1.1e-12 * unit, 0).miss != "");
+  CHECK(judged(0.9e-12 * unit, 0).what == "");
+  CHECK(judged(1.1e-12 * unit, 0).what != "");
   // A force that moves nothing has the unit of the largest.
   const double stiff = problem.A(0, 0);
   problem.A(0, 0) = problem.A(0, 2) = problem.A(2, 0) = 0;
-  CHECK(judged(-0.9e-6 * 0.5, 0).miss == "");
+  CHECK(judged(-0.9e-6 * 0.5, 0).what == "");
   CHECK(judged(-0.9e-6 * 0.5, 0).error == Approx(0.9e-6));
-  CHECK(judged(-1.1e-6 * 0.5, 0).miss == "pulls");
-  CHECK(judged(-1e6, 0).miss == "pulls");
-  CHECK(judged(1e6, -1e-16).miss == "");
-  CHECK(judged(-1e-16, 1e-5).miss == "presses-and-separates");
+  CHECK(judged(-1.1e-6 * 0.5, 0).what == "pulls");
+  CHECK(judged(-1e6, 0).what == "pulls");
+  CHECK(judged(1e6, -1e-16).what == "");
+  CHECK(judged(-1e-16, 1e-5).what == "presses-and-separates");
   problem.A(0, 0) = stiff, problem.A(0, 2) = problem.A(2, 0) = 1e6;
   // What is loaded, by however little, has a unit of its own.
   problem.b[0] = -1e-20;
-  CHECK(judged(1e-16, 0).miss != "");
+  CHECK(judged(1e-16, 0).what != "");
   // Where nothing acts at all there is no unit.
   problem.b.setZero();
   const Eigen::Vector3d idle(1e-16, 0, 0);
-  CHECK(JudgeForces(problem, SolverLaw::kFrictionless, Rational(1, 1000000), idle).miss != "");
+  CHECK(JudgeForces(problem, SolverLaw::kFrictionless, Rational(1, 1000000), idle).what != "");
 }
 
 namespace {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/narration/all_policies.h"
+#include "cli/narration/published_ends.h"
 
 #include <fmt/format.h>
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/exact.h"
+#include "certify/exact/published_space.h"
 #include "certify/request/request.h"
+#include "cli/narration/outcome_text.h"
 #include "corpus/json.h"
 
 namespace stiction {
@@ -51,6 +53,18 @@ std::map<std::string, Json> OutcomesOf(const Wanted& wanted, const ExactProblem&
     throw InputError(fmt::format("{}arithmetic: found {}, expected exact for all policies in the plane",
                                  wanted.dashes, wanted.arithmetic));
   return problem.dimension == 2 ? InPlane(wanted.request.limits, problem) : InSpace(request, problem, source);
+}
+
+std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Request& request,
+                                           Outcome outcome) {
+  const bool in_space = problem.dimension == 3 && request.method == "baraff";
+  if (!in_space || !PublishedReadsInSpace(request.policy) || outcome == Outcome::kSolved) return std::nullopt;
+  return RunIntervalsInSpace(problem, {.policy = request.policy, .limits = request.limits});
+}
+
+std::string OverIntervalsText(const InexactAnswer& answer) {
+  const bool open = answer.outcome == Outcome::kUndecided || answer.outcome == Outcome::kLimit;
+  return fmt::format("over intervals, {}: {}", open ? "which do not decide it" : "proved", Describe(answer));
 }
 
 }  // namespace stiction
