@@ -86,10 +86,8 @@ bug("CheckNotHypothesis", "claim-not-h-cone",
 bug("CheckNotHypothesis", "claim-not-h-kernel", 'RequireEqual(image[i], 0, fmt::format("(A v)[{}]", i));', "",
     "not-h: A v may be anything")
 bug("CheckNotHypothesis", "claim-not-h-zero", "product >= 0", "product > 0", "not-h: b'v = 0 will do")
-bug("FindDualConeViolation", "dual-normal", 'if (g[row] < 0) return Broken(i, "gN >= 0", g[row]);', "",
+bug("FindDualConeViolation", "dual-normal", 'require(g[row] >= 0, "gN >= 0", g[row]);', "",
     "a dual cone and its opposite")
-bug("FindConeViolation", "cone-normal", "contact.kind != ContactKind::kBilateral && v[row] < 0", "false",
-    "cones that pull")
 
 # ---- certify/claims/cycle.cpp ----
 
@@ -142,20 +140,13 @@ bug("RequireKeys", "unknown-keys",
 
 # ---- certify/exact/verify_solution.cpp ----
 
-bug("NormalViolation", "planar-complementarity", 'if (product != 0) return Broken(contact, "fN aN = 0", product);',
-    "", "(15) without fN aN = 0")
-bug("FrictionViolation", "planar-power", 'if (power > 0) return Broken(contact, "aF fF <= 0", power);', "",
-    "(16) without aF fF <= 0")
-bug("FrictionViolation", "planar-bound", 'if (slack < 0) return Broken(contact, "abs(fF) <= mu fN", slack);', "",
-    "(16) without its bound")
-bug("CapViolation", "space-bound", 'if (slack < 0) return Broken(c.number, "fF.fF <= mu^2 fN^2", slack);', "",
-    "in space: no bound")
-bug("WeakViolation", "space-slip",
-    'if (product != 0) return Broken(c.number, "aF = 0 or abs(fF) = mu fN", product);', "",
-    "(21) without slip at the limit only")
-bug("CoulombViolation", "coulomb-angle",
-    'if (excess < 0) return Broken(c.number, "(fF.aF)^2 >= c^2 mu^2 fN^2 aF.aF", excess);', "",
-    "Coulomb's law at any angle")
+bug("FindBroken", "cone-normal", 'require(f[row] >= 0, "fN >= 0", f[row]);', "", "forces and cones that pull")
+bug("FindBroken", "complementarity", "f[row] == 0 || a[row] == 0", "true", "(15) without fN aN = 0")
+bug("FindBroken", "power", "friction.power <= 0", "true", "(16), (21) without fF.aF <= 0")
+bug("FindBroken", "planar-bound", "slack >= 0", "plane || slack >= 0", "(16) without its bound")
+bug("FindBroken", "space-bound", "slack >= 0", "!plane || slack >= 0", "in space: no bound")
+bug("FindBroken", "slip", "product == 0", "true", "(16), (21) without slip at the limit only")
+bug("FindBroken", "coulomb-angle", "excess >= 0", "true", "Coulomb's law at any angle")
 
 # ---- certify/claims/no_solution.cpp, certify/exact/farkas.cpp ----
 
