@@ -76,7 +76,7 @@ class ContactMaker {
     if (open || contact.kind != ContactKind::kStatic || contact.mu * f[row] == 0) return;
     const Rational free = TangentLength(given_.b, row, tangents + 1);
     std::array<Rational, 2> change = {Rational(0), Rational(0)};
-    FrictionAt<Rational> at{contact.mu * f[row], change, change, change, tangents == 1};
+    FrictionAt<Rational> at{contact.mu * f[row], change, change, contact.mu * f[row], change, tangents == 1};
     for (int k = 0; k < tangents; ++k) {
       at.f[k] = f[row + 1 + k];
       at.a[k] = a[row + 1 + k];
@@ -186,13 +186,15 @@ std::optional<std::string> FindNotice(const ExactProblem& given, const ExactVect
 Neighbour MakeNeighbour(const ExactProblem& problem, const ExactVector& f, FrictionLaw law, const Gate& gate) {
   ErrorMeter<Rational> meter;
   MeasureErrors(problem, law, f, Accelerations(problem, f), meter, Rational(gate.theta()));
-  const std::vector<Motion>& modes = meter.modes();
+  const std::vector<NearestMode<Rational>>& modes = meter.modes();
   Neighbour near{problem, f};
   const ContactMaker maker(problem, law, {Rational(gate.eps), Rational(gate.tau)}, gate);
-  ForEachContact(problem, [&](int i, int row, int) { maker.Force(i, row, modes[i], near.f, near.problem); });
-  const ExactVector a = Accelerations(problem, near.f);
   ForEachContact(problem,
-                 [&](int i, int row, int) { maker.Accelerate(i, row, modes[i], near.f, a, near.problem); });
+                 [&](int i, int row, int) { maker.Force(i, row, modes[i].motion, near.f, near.problem); });
+  const ExactVector a = Accelerations(problem, near.f);
+  ForEachContact(problem, [&](int i, int row, int) {
+    maker.Accelerate(i, row, modes[i].motion, near.f, a, near.problem);
+  });
   return near;
 }
 

@@ -26,11 +26,12 @@ def bug(function, name, original, mutated, breaks, type=None, equivalent=None):
 
 bug("Bound", "rounding-not-bounded", "Scalar(gate.theta()), &rounding_)", "Scalar(gate.theta()))",
     "the errors are not upper bounds")
-bug("TakeFriction", "beyond-the-limit", "of_friction_[i] = excess;", "of_friction_[i] = Scalar(0);",
+bug("NearestFriction", "beyond-the-limit",
+    "if (bounded) mode.friction = measure.OfFriction(friction.Excess(i, at), at.force_unit);", "",
     "a contact that sticks has any friction")
-bug("Take", "separates-with-forces", "if (f[row + k] != 0) AddGhost(problem, f, i, row + k);", "",
+bug("Measure", "separates-with-forces", "if (f[row + k] != 0) AddGhost(problem, f, i, row + k);", "",
     "a contact that separates may have forces")
-bug("AddGhost", "acts-on-nothing", "if (!acts) of_friction_[contact] = most_;", "",
+bug("AddGhost", "acts-on-nothing", "if (!acts) modes_[contact].friction = most_;", "",
     "a force that acts on no row is none")
 
 # ---- certify/claims/solution.cpp ----
