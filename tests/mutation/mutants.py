@@ -204,10 +204,10 @@ bug("check_not_h", "py-not-h-kernel", """equal(long_times(problem.A, v), [0] * l
     "not-h: A v may be anything")
 bug("forces", "py-accelerations", """equal(a, [x + y for x, y in zip(long_times(problem.A, f), problem.b)], "$.witness.a", "A f + b")""",
     "None", "solutions: any a")
-bug("check_in_space", "py-space-complementarity", "fN >= 0 and aN >= 0 and fN * aN == 0", "fN >= 0 and aN >= 0",
-    "in space, without fN aN = 0")
+bug("check_forces", "py-complementarity", "fN >= 0 and aN >= 0 and fN * aN == 0", "fN >= 0 and aN >= 0",
+    "without fN aN = 0")
 bug("check_coulomb", "py-coulomb-bound", "0 < bound <= 1", "bound <= 1", "coulomb-solution: a bound of zero or less")
-bug("in_mode", "py-stick", "abs(fF) <= contact.mu * fN", "True", "sticking with any force")
+bug("weak", "py-limit", "force2 <= limit2", "True", "sticking with any force")
 bug("never_negative", "py-stick-side", "-contact.mu * abs(gF)", "contact.mu * abs(gF)", "stick: the cone's other side")
 bug("check_refutation", "py-refutation-zero", "yb < 0", "yb <= 0", "y'b = 0 refutes")
 bug("check_no_solution", "py-prefix-twice", "prefix not in prefixes", "True", "no-solution: a prefix counts twice")
