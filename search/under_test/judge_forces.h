@@ -41,8 +41,6 @@ struct JudgedForces {
   bool is_neither = false;  // by Coulomb's law: passes, and has a strict error (errors.h) above the accuracy
 };
 
-ExactProblem ExactOf(const ContactProblem<double>& problem);
-
 // The problem as posed (solver_process.h).
 JudgedForces JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,
                          const Eigen::VectorXd& f);

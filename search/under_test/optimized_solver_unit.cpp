@@ -8,6 +8,7 @@
 
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/under_test/examine.h"
 #include "search/under_test/solver_unit.h"
@@ -63,7 +64,7 @@ class Aim {
     if (static_cast<std::int64_t>(findings.size()) >= campaign_.representatives_per_unit) return;
     const std::string generator(Row(candidate.generator).name);
     ProblemFile file = FileOf(candidate, fmt::format("{}-{}-{}", generator, unit_, index_));
-    file.problem = ExactOf(posed);
+    file.problem = Unrounded(posed);
     if (campaign_.solver.law == SolverLaw::kFrictionless) file.scene = {};  // it has friction
     findings.push_back(SolverFinding(campaign_, unit_, index_, process_, JsonText(ToJson(file)), examined));
     tell_(findings.back());

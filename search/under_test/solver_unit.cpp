@@ -13,6 +13,7 @@
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 #include "search/under_test/examine.h"
 #include "search/under_test/simple_scene.h"
 #include "search/units/collector.h"
@@ -180,7 +181,7 @@ class SolverUnit {
     if (static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit) return;
     result_.candidates.push_back(
         SolverFinding(campaign_, unit_, index, process_,
-                      JsonText(ToJson(FileOf(campaign_, unit_, index, ExactOf(posed_)))), examined, leak));
+                      JsonText(ToJson(FileOf(campaign_, unit_, index, Unrounded(posed_)))), examined, leak));
     tell_(result_.candidates.back());
   }
 
