@@ -365,15 +365,20 @@ def digest(problem):
     return "sha256:" + hashlib.sha256("".join(line + "\n" for line in lines).encode("ascii")).hexdigest()
 
 
-def planar_contacts(problem):
-    """(number, contact, its rows) for each contact of a planar problem."""
-    need(problem.dimension == 2, "$.problem.dimension", problem.dimension,
-         "2: others are not supported by this checker for this claim")
+def contacts_of(problem):
+    """(number, contact, its rows) for each contact."""
     row = 0
     for i, contact in enumerate(problem.contacts):
-        span = range(row, row + (1 if contact.mu is None else 2))
+        span = range(row, row + (1 if contact.mu is None else problem.dimension))
         yield i, contact, span
         row = span.stop
+
+
+def planar_contacts(problem):
+    """The same of a planar problem."""
+    need(problem.dimension == 2, "$.problem.dimension", problem.dimension,
+         "2: others are not supported by this checker for this claim")
+    return contacts_of(problem)
 
 
 # --- What a check will cost, bounded before it begins ---------------------------

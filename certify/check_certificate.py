@@ -26,9 +26,10 @@ from math import prod
 
 sys.dont_write_bytecode = True  # where it is installed, nothing is to be left behind
 
-from certificate_reader import (ZERO, Cost, brief, dot, drop_pivot, elimination_operations, exact, fields, integer,
-                                integer_rows, items, listed, long_times, main, need, one_of, over, planar_contacts,
-                                product_operations, read_entries, require_cheap_product, rows, take_pivot, vector)
+from certificate_reader import (ZERO, Cost, brief, contacts_of, dot, drop_pivot, elimination_operations, exact, fields,
+                                integer, integer_rows, items, listed, long_times, main, need, one_of, over,
+                                planar_contacts, product_operations, read_entries, require_cheap_product, rows,
+                                take_pivot, vector)
 from check_runs import CYCLE, ENDLESS, RAY, check_runs
 
 # --- A and b: each check returns the facts to print ---------------------------------
@@ -250,12 +251,9 @@ def check_not_in_range(problem, witness):
 
 def cones(problem):
     """(kind, mu, normal row, tangent rows) of each contact; none of them sliding."""
-    row = 0
-    for i, (kind, mu, _) in enumerate(problem.contacts):
+    for i, (kind, mu, _), span in contacts_of(problem):
         need(kind != "sliding", f"$.problem.contacts[{i}].kind", kind, "bilateral, frictionless or static")
-        end = row + (problem.dimension if kind == "static" else 1)
-        yield kind, mu or Fraction(0), row, range(row + 1, end)
-        row = end
+        yield kind, mu or Fraction(0), span[0], span[1:]
 
 
 def check_h(problem, witness):
@@ -298,23 +296,8 @@ def forces(problem, witness):
     return f, a
 
 
-def check_solution(problem, witness):
-    f, a = forces(problem, witness)
-    if problem.dimension == 3:
-        return check_in_space(problem, f, a, weak)
-    for i, contact, span in planar_contacts(problem):
-        force, answer = ([values[row] for row in span] for values in (f, a))
-        need(any(in_mode(mode, contact, force, answer) for mode in modes_of(contact)),
-             f"$.witness.f[{span[0]}]", force[0],
-             f"a force by the law of a {contact.kind} contact (number {i + 1})",
-             f"; f = {', '.join(map(brief, force))}, a = {', '.join(map(brief, answer))}")
-    return f"{len(problem.contacts)} contacts"
-
-
-# --- Solutions in space (certify/certificates.md, In space) ----------------------------------
-
 def weak(limit2, force2, answer2, power):
-    """(21), (22), of mu^2 fN^2, fF.fF, aF.aF and fF.aF: the direction of slip is free."""
+    """(16), in space (21), (22), of mu^2 fN^2, fF.fF, aF.aF and fF.aF: the direction of slip is free."""
     return force2 <= limit2 and power <= 0 and (answer2 == 0 or force2 == limit2)
 
 
@@ -325,13 +308,11 @@ def coulomb(bound):
     return holds
 
 
-def check_in_space(problem, f, a, law):
-    row = 0
-    for i, contact in enumerate(problem.contacts):
-        place, of = f"$.witness.f[{row}]", f"of contact {i + 1}"
-        size = 1 if contact.mu is None else 3
-        fN, aN, fF, aF = f[row], a[row], f[row + 1:row + size], a[row + 1:row + size]
-        row += size
+def check_forces(problem, f, a, law):
+    """Every contact by its kind, a static one by the law of friction."""
+    for i, contact, span in contacts_of(problem):
+        place, of = f"$.witness.f[{span[0]}]", f"of contact {i + 1}, {contact.kind}"
+        (fN, *fF), (aN, *aF) = ([values[row] for row in span] for values in (f, a))
         if contact.kind == "bilateral":
             need(aN == 0, place, aN, f"aN = 0 {of}")
             continue
@@ -344,14 +325,18 @@ def check_in_space(problem, f, a, law):
             limit = contact.mu * fN
             need(law(limit * limit, dot(fF, fF), dot(aF, aF), dot(fF, aF)), place,
                  tuple(str(x) for x in (fN, *fF, *aF)), f"fN, fF, aF by the law of friction {of}")
-    return f"{len(problem.contacts)} contacts in space"
+    return f"{len(problem.contacts)} contacts{' in space' if problem.dimension == 3 else ''}"
+
+
+def check_solution(problem, witness):
+    return check_forces(problem, *forces(problem, witness), weak)
 
 
 def check_coulomb(problem, witness):
     need(problem.dimension == 3, "$.problem.dimension", problem.dimension, "3")
     bound = exact(witness["bound"], "$.witness.bound")
     need(0 < bound <= 1, "$.witness.bound", bound, "a bound > 0 and <= 1")
-    return f"{check_in_space(problem, *forces(problem, witness), coulomb(bound))}, bound {brief(bound)}"
+    return f"{check_forces(problem, *forces(problem, witness), coulomb(bound))}, bound {brief(bound)}"
 
 
 # --- Contact modes (certify/certificates.md, Modes) ----------------------------------------
@@ -372,21 +357,6 @@ def with_friction(values):
 def limit(contact):
     """mu u: under `touch` a contact has fF = -mu u fN."""
     return contact.mu * contact.slip[0] if contact.kind == "sliding" else Fraction(0)
-
-
-def in_mode(mode, contact, f, a):
-    """Whether a contact with forces f and accelerations a meets the conditions of the mode."""
-    (fN, fF), (aN, aF) = with_friction(f), with_friction(a)
-    if mode == "hold":
-        return aN == 0
-    if mode == "break":
-        return fN == fF == 0 <= aN
-    if mode == "touch":
-        return aN == 0 <= fN and fF == -limit(contact) * fN
-    if mode == "stick":
-        return aN == aF == 0 and abs(fF) <= contact.mu * fN
-    sense = 1 if mode == "slip+" else -1
-    return aN == 0 <= fN and fF == -sense * contact.mu * fN and sense * aF >= 0
 
 
 def never_negative(mode, contact, y, g):
@@ -416,15 +386,6 @@ def never_negative_in_space(mode, contact, y, g):
     if contact.kind == "sliding":
         return gN <= contact.mu * dot(contact.slip, gF)
     return gN <= 0 and gN ** 2 >= (contact.mu or 0) ** 2 * dot(gF, gF)
-
-
-def contacts_of(problem):
-    """(number, contact, its rows) in the plane and in space."""
-    row = 0
-    for i, contact in enumerate(problem.contacts):
-        span = range(row, row + (1 if contact.mu is None else problem.dimension))
-        yield i, contact, span
-        row = span.stop
 
 
 def check_refutation(problem, columns, prefix, y, place):

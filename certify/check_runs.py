@@ -262,7 +262,7 @@ class Published:
         holds = fN >= 0 and aN >= 0 and fN * aN == 0
         if row == x.normal or not holds:
             return row == x.normal and not holds
-        fF, aF, bound = self.f[row], self.a[row], x.mu * fN
+        fF, aF, bound = self.f[row], self.a[row], self.bound_of(row, self.f)
         return not (abs(fF) <= bound and aF * fF <= 0 and aF * (bound - abs(fF)) == 0)
 
     def sweep(self):
@@ -305,6 +305,10 @@ class Published:
             return key[::-1] if self.policy["scan"] == "normals-first" else key
 
         return sorted(range(len(self.f)), key=key)
+
+    def bound_of(self, row, values):
+        """mu fN of a friction variable, of forces or of a change of them."""
+        return self.variables[row].mu * values[self.variables[row].normal]
 
     # Drive (readings, section 3).
 
@@ -354,8 +358,7 @@ class Published:
         f, a = self.f, self.a
 
         def at_bound(row):
-            x = self.variables[row]
-            bound, growth = x.mu * f[x.normal], x.mu * df[x.normal]
+            bound, growth = self.bound_of(row, f), self.bound_of(row, df)
             return [(zero_at(bound - f[row], growth - df[row]), "NC+"),
                     (zero_at(bound + f[row], growth + df[row]), "NC-")]
 

@@ -47,8 +47,7 @@ double ErrorOf(const Problem& problem, const typename Problem::Vector& f, double
   Eigen::VectorXd a = problem.A * f + problem.b;
   const double noise = NoiseOf(problem, share);
   for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
-  LenientUnits<double> units;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
 }
 
 constexpr double kMostPressing = 1e7;  // of forces that are no sign that there is no solution

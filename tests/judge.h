@@ -29,10 +29,7 @@ inline ExactProblem AsRun(const ExactProblem& problem, Arithmetic arithmetic) {
 inline std::string FaultOf(const ExactProblem& problem, const ExactAnswer& answer) {
   if (answer.f.size() != problem.rows()) return "solved without forces";
   if (answer.a != Accelerations(problem, answer.f)) return "accelerations of other forces";
-  const bool weak = answer.law == FrictionLaw::kBaraff;
-  const auto violation = problem.dimension == 2 ? FindViolation(problem, answer.f)
-                         : weak                 ? FindWeakViolation(problem, answer.f)
-                                                : FindCoulombViolation(problem, answer.f, *answer.bound);
+  const auto violation = FindViolation(problem, answer.f, answer.law, answer.bound.value_or(1));
   return violation ? "called solved: " + *violation : "";
 }
 

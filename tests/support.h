@@ -49,8 +49,7 @@ auto WeakErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
 // The lenient one, of what a method takes for solved before the gate looks.
 template <class Problem, class Vector>
 auto LenientErrorOf(const Problem& problem, const Vector& f, const Vector& a) {
-  LenientUnits<typename Vector::Scalar> units;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
 }
 template <class Problem, class Polygons, class Vector>
 auto PolygonErrorOf(const Problem& problem, const Polygons& polygons, const Vector& f, const Vector& a) {

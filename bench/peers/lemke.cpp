@@ -135,8 +135,7 @@ int CountWrong(const std::vector<PeerProblem>& problems, Contender& contender) {
     contender.Solve(static_cast<int>(i));
     const Eigen::VectorXd f = contender.Forces();
     const Eigen::VectorXd a = problems[i].A * f + problems[i].b;
-    LenientUnits<double> units;
-    wrong += !(MeasureLeniently(problems[i], FrictionLaw::kCoulomb, f, a, units).error <= 1e-6);
+    wrong += !(MeasureLeniently(problems[i], FrictionLaw::kCoulomb, f, a).error <= 1e-6);
   }
   return wrong;
 }

@@ -38,8 +38,7 @@ double ResidualOf(const Contender& contender, const PeerProblem& problem) {
   const Eigen::VectorXd f = contender.Forces();
   if (f.size() != problem.rows()) return kInfinity;
   const Eigen::VectorXd a = problem.A * f + problem.b;
-  LenientUnits<double> units;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
 }
 
 // Whether the first problem is solved within so many seconds of processor time, rounded up, by a child.

@@ -7,6 +7,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/safe.h"
+#include "certify/exact/hypothesis.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"
@@ -26,13 +27,8 @@ bool MustSolve(const Answer<Rational>& answer) {
   return answer.method == "complete" || answer.method == "lemke";
 }
 
-bool HasKind(const ExactProblem& problem, ContactKind kind) {
-  return std::any_of(problem.contacts.begin(), problem.contacts.end(),
-                     [kind](const auto& contact) { return contact.kind == kind; });
-}
-
 // With sliding contacts there may be none.
-bool HasSolution(const ExactProblem& problem) { return !HasKind(problem, ContactKind::kSliding); }
+bool HasSolution(const ExactProblem& problem) { return !HasSlidingContact(problem); }
 
 // Whether f is a solution of one of the words, and the only one of a word that has only one.
 bool IsListed(const ExactProblem& problem, const Enumeration& modes, const ExactVector& f) {

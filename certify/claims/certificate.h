@@ -17,9 +17,9 @@ struct ExactRun;  // certify/exact/exact.h
 
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 
-// Requires: f is a solution (FindViolation is empty; in space FindWeakViolation); otherwise InternalError.
+// Requires: f is a solution (FindViolation is empty); otherwise InternalError.
 Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
-// Requires: dimension 3, FindCoulombViolation is empty for this bound; otherwise InternalError.
+// Requires: dimension 3, FindViolation is empty by Coulomb's law up to this bound; otherwise InternalError.
 Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f, const Rational& bound);
 // `symmetric` or `not-symmetric`.
 Json SymmetryCertificate(const ExactProblem& problem);

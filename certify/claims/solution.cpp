@@ -16,14 +16,14 @@ namespace stiction {
 // ---- Making ------------------------------------------------------------------------------------
 
 Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
-  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
+  const auto violation = FindViolation(problem, f);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate("solution-exists", problem,
                          {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});
 }
 
 Json CoulombCertificate(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
-  const auto violation = FindCoulombViolation(problem, f, bound);
+  const auto violation = FindViolation(problem, f, FrictionLaw::kCoulomb, bound);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate(
       "coulomb-solution", problem,
@@ -48,7 +48,7 @@ ExactVector ReadForces(const ExactProblem& problem, const Json& witness) {
 
 void RequireSolution(const ExactProblem& problem, const Json& witness) {
   const ExactVector f = ReadForces(problem, witness);
-  const auto violation = problem.dimension == 3 ? FindWeakViolation(problem, f) : FindViolation(problem, f);
+  const auto violation = FindViolation(problem, f);
   if (violation) throw Rejected{"witness.f", *violation, "a solution"};
 }
 
@@ -66,7 +66,7 @@ Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
   const Rational bound = ReadNumber(witness["bound"], "witness.bound");
   if (bound <= 0 || bound > 1) throw Rejected{"witness.bound", ToString(bound), "0 < bound <= 1"};
   const ExactVector f = ReadForces(problem, witness);
-  if (const auto violation = FindCoulombViolation(problem, f, bound)) {
+  if (const auto violation = FindViolation(problem, f, FrictionLaw::kCoulomb, bound)) {
     throw Rejected{"witness.f", *violation, "a solution within the bound"};
   }
   return {{"bound", ToString(bound)}};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/cones.h"
 
+#include "solver/problem/units.h"
+
 namespace stiction {
 namespace {
 
@@ -75,8 +77,7 @@ RationalPolygons FirstPolygons(const ExactProblem& problem) {
 std::vector<ConeEdge> MakeEdges(const ExactProblem& problem, const RationalPolygons& polygons, EdgesOf which) {
   const int tangents = problem.dimension - 1;
   std::vector<ConeEdge> edges;
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const Contact<Rational>& contact = problem.contacts[i];
     ConeEdge edge = {i, row, {1}, contact.kind == ContactKind::kBilateral};
     std::vector<ConeEdge> own = {edge};
@@ -92,8 +93,7 @@ std::vector<ConeEdge> MakeEdges(const ExactProblem& problem, const RationalPolyg
       own.clear();  // gN = 0
     }
     edges.insert(edges.end(), own.begin(), own.end());
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
-  }
+  });
   return edges;
 }
 

@@ -6,22 +6,13 @@
 #include <algorithm>
 
 #include "certify/exact/cones.h"
+#include "certify/exact/verify_solution.h"
 #include "corpus/input_error.h"
 #include "solver/problem/check.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {
-
-std::optional<std::string> Broken(std::size_t contact, const char* condition, const Rational& found) {
-  return fmt::format("contact {}: {} is broken, found {}", contact + 1, condition, ToString(found));
-}
-
-// Rows of the tangents: their sum of squares.
-Rational SquareOfTangent(const ExactVector& x, int row, int dimension) {
-  Rational square = 0;
-  for (int k = 1; k < dimension; ++k) square += x[row + k] * x[row + k];
-  return square;
-}
 
 // Of v in K with A v = 0.
 HypothesisObstacle MakeObstacle(const ExactProblem& problem, ExactVector v) {
@@ -41,38 +32,24 @@ bool HasSlidingContact(const ExactProblem& problem) {
 }
 
 std::optional<std::string> FindConeViolation(const ExactProblem& problem, const ExactVector& v) {
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const auto& contact = problem.contacts[i];
-    if (contact.kind != ContactKind::kBilateral && v[row] < 0) return Broken(i, "vN >= 0", v[row]);
-    if (!contact.HasFrictionRows()) {
-      ++row;
-      continue;
-    }
-    const Rational bound = contact.mu * v[row];
-    const Rational slack = bound * bound - SquareOfTangent(v, row, problem.dimension);
-    if (slack < 0) return Broken(i, "(mu vN)^2 - vF^2 >= 0", slack);
-    row += problem.dimension;
-  }
-  return std::nullopt;
+  return FindViolationApart(problem, v, ExactVector::Zero(v.size()));
 }
 
 std::optional<std::string> FindDualConeViolation(const ExactProblem& problem, const ExactVector& g) {
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+  std::optional<std::string> broken;
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    const auto require = [&](bool holds, const char* condition, const Rational& found) {
+      if (!holds && !broken)
+        broken = fmt::format("contact {}: {} is broken, found {}", i + 1, condition, ToString(found));
+    };
     const auto& contact = problem.contacts[i];
-    if (contact.kind == ContactKind::kBilateral && g[row] != 0) return Broken(i, "gN = 0", g[row]);
-    if (g[row] < 0) return Broken(i, "gN >= 0", g[row]);
-    if (!contact.HasFrictionRows()) {
-      ++row;
-      continue;
-    }
-    const Rational square = contact.mu * contact.mu * SquareOfTangent(g, row, problem.dimension);
-    const Rational slack = g[row] * g[row] - square;
-    if (slack < 0) return Broken(i, "gN^2 - (mu gF)^2 >= 0", slack);
-    row += problem.dimension;
-  }
-  return std::nullopt;
+    if (contact.kind == ContactKind::kBilateral) require(g[row] == 0, "gN = 0", g[row]);
+    require(g[row] >= 0, "gN >= 0", g[row]);
+    Rational slack = g[row] * g[row];
+    for (int k = 1; k < rows; ++k) slack -= contact.mu * contact.mu * g[row + k] * g[row + k];
+    require(slack >= 0, "gN^2 - (mu gF)^2 >= 0", slack);
+  });
+  return broken;
 }
 
 ExactVector DualRest(const ExactProblem& problem, const ExactVector& y) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "certify/exact/verify_solution.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"
 
@@ -99,32 +100,19 @@ Cone RelaxedCone(const Contact<Rational>& contact) {
   return cone;
 }
 
-namespace {
-
-bool IsInCone(const Contact<Rational>& contact, const Cone& cone, int row, const ExactVector& f,
-              const ExactVector& a) {
-  const bool rough = contact.HasFrictionRows();
-  if (!Holds(cone.a_n, a[row]) || (rough && !Holds(cone.a_t, a[row + 1]))) return false;
-  if (contact.kind == ContactKind::kBilateral) return true;
-  if (f[row] < 0) return false;
-  if (!rough) return !cone.edges.empty() || f[row] == 0;
-  if (cone.edges.empty()) return f[row] == 0 && f[row + 1] == 0;
-  if (cone.edges.size() == 1) return f[row + 1] == cone.edges[0].f_t * f[row];
-  return abs(f[row + 1]) <= contact.mu * f[row];
-}
-
-}  // namespace
-
 bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const ExactVector& f,
                 const ExactVector& a) {
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const auto& contact = problem.contacts[i];
     const Cone cone = i < prefix.size() ? ConeOf(contact, prefix[i]) : RelaxedCone(contact);
-    if (!IsInCone(contact, cone, row, f, a)) return false;
-    row += contact.HasFrictionRows() ? 2 : 1;
+    const bool rough = contact.HasFrictionRows();
+    if (!Holds(cone.a_n, a[row]) || (rough && !Holds(cone.a_t, a[row + 1]))) return false;
+    if (cone.edges.empty() && (f[row] != 0 || (rough && f[row + 1] != 0))) return false;
+    if (rough && cone.edges.size() == 1 && f[row + 1] != cone.edges[0].f_t * f[row]) return false;
+    row += rough ? 2 : 1;
   }
-  return true;
+  return !FindViolationApart(problem, f, a);
 }
 
 }  // namespace stiction

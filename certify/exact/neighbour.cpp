@@ -76,7 +76,7 @@ class ContactMaker {
     if (open || contact.kind != ContactKind::kStatic || contact.mu * f[row] == 0) return;
     const Rational free = TangentLength(given_.b, row, tangents + 1);
     std::array<Rational, 2> change = {Rational(0), Rational(0)};
-    FrictionAt<Rational> at{contact.mu * f[row], change, change, change, tangents == 1};
+    FrictionAt<Rational> at{contact.mu * f[row], change, change, contact.mu * f[row], change, tangents == 1};
     for (int k = 0; k < tangents; ++k) {
       at.f[k] = f[row + 1 + k];
       at.a[k] = a[row + 1 + k];
@@ -117,16 +117,6 @@ class ContactMaker {
   Rational theta_;
 };
 
-// visit(contact, its normal row)
-template <class Visit>
-void ForEachContact(const ExactProblem& problem, Visit visit) {
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-    visit(i, row);
-    row += RowsOf(problem.contacts[i], problem.dimension);
-  }
-}
-
 std::string OutOfReach(const char* what, int row, int column = -1) {
   return column < 0 ? fmt::format("{} of row {} is out of reach", what, row + 1)
                     : fmt::format("{} of row {}, column {} is out of reach", what, row + 1, column + 1);
@@ -139,11 +129,10 @@ std::optional<std::string> FindDistance(const ExactProblem& given, const Rationa
     for (int j = 0; j < given.rows(); ++j)
       if (abs(near.A(i, j) - given.A(i, j)) > tau * abs(given.A(i, j))) return OutOfReach("A", i, j);
   std::optional<std::string> fault;
-  ForEachContact(given, [&](int i, int row) {
+  ForEachContact(given, [&](int i, int row, int rows) {
     if (fault) return;
     const auto &contact = given.contacts[i], &other = near.contacts[i];
     if (abs(near.b[row] - given.b[row]) > eps * abs(given.b[row])) fault = OutOfReach("b", row);
-    const int rows = RowsOf(contact, given.dimension);
     Rational square = 0, turned = 0;
     for (int k = 1; k < rows; ++k) square += given.b[row + k] * given.b[row + k];
     for (int k = 1; k < rows; ++k) {
@@ -165,8 +154,7 @@ std::optional<std::string> FindNotice(const ExactProblem& given, const ExactVect
   const Rational turn(std::ldexp(1.0, -80));
   ExactVector ghosts = ExactVector::Constant(f.size(), Rational(0));
   std::optional<std::string> fault;
-  ForEachContact(given, [&](int i, int row) {
-    const int rows = RowsOf(given.contacts[i], given.dimension);
+  ForEachContact(given, [&](int, int row, int rows) {
     Rational friction = 0;
     for (int k = 1; k < rows; ++k) friction += abs(f[row + k]);
     for (int k = 0; k < rows; ++k) {
@@ -185,8 +173,7 @@ std::optional<std::string> FindNotice(const ExactProblem& given, const ExactVect
       noticed += abs(given.A(i, j)) * ghosts[j];
       size += abs(given.A(i, j) * near[j]);
     }
-    ForEachContact(given, [&](int c, int row) {
-      const int rows = RowsOf(given.contacts[c], given.dimension);
+    ForEachContact(given, [&](int, int row, int rows) {
       if (i > row && i < row + rows) free = TangentLength(given.b, row, rows);
     });
     if (noticed > eps * free + tau * size) fault = OutOfReach("what forces of parting contacts do", i);
@@ -194,23 +181,20 @@ std::optional<std::string> FindNotice(const ExactProblem& given, const ExactVect
   return fault;
 }
 
-std::optional<std::string> FindBroken(const ExactProblem& problem, const ExactVector& f, FrictionLaw law) {
-  if (problem.dimension == 2) return FindViolation(problem, f);
-  return law == FrictionLaw::kBaraff ? FindWeakViolation(problem, f)
-                                     : FindCoulombViolation(problem, f, Rational(1));
-}
-
 }  // namespace
 
 Neighbour MakeNeighbour(const ExactProblem& problem, const ExactVector& f, FrictionLaw law, const Gate& gate) {
   ErrorMeter<Rational> meter;
   MeasureErrors(problem, law, f, Accelerations(problem, f), meter, Rational(gate.theta()));
-  const std::vector<Motion>& modes = meter.modes();
+  const std::vector<NearestMode<Rational>>& modes = meter.modes();
   Neighbour near{problem, f};
   const ContactMaker maker(problem, law, {Rational(gate.eps), Rational(gate.tau)}, gate);
-  ForEachContact(problem, [&](int i, int row) { maker.Force(i, row, modes[i], near.f, near.problem); });
+  ForEachContact(problem,
+                 [&](int i, int row, int) { maker.Force(i, row, modes[i].motion, near.f, near.problem); });
   const ExactVector a = Accelerations(problem, near.f);
-  ForEachContact(problem, [&](int i, int row) { maker.Accelerate(i, row, modes[i], near.f, a, near.problem); });
+  ForEachContact(problem, [&](int i, int row, int) {
+    maker.Accelerate(i, row, modes[i].motion, near.f, a, near.problem);
+  });
   return near;
 }
 
@@ -219,12 +203,12 @@ std::optional<std::string> CheckNeighbour(const ExactProblem& problem, const Exa
   const Rational eps(gate.eps), tau(gate.tau);
   if (auto fault = FindDistance(problem, eps, tau, neighbour.problem)) return fault;
   if (auto fault = FindNotice(problem, f, eps, tau, neighbour.f)) return fault;
-  return FindBroken(neighbour.problem, neighbour.f, law);
+  return FindViolation(neighbour.problem, neighbour.f, law);
 }
 
 std::optional<std::string> FindMiss(const ExactProblem& problem, const ExactVector& f, FrictionLaw law,
                                     const Gate& gate) {
-  if (gate.eps == 0) return FindBroken(problem, f, law);
+  if (gate.eps == 0) return FindViolation(problem, f, law);
   return CheckNeighbour(problem, f, law, gate, MakeNeighbour(problem, f, law, gate));
 }
 

@@ -31,17 +31,7 @@ Method<double> NewtonBodiesRow();
 template <class Problem>
 void JudgeExactly(const Problem& problem, const ExactProblem::Vector& f, const ExactProblem::Vector& a,
                   double bound, InexactAnswer& answer) {
-  ErrorMeter<Rational> meter;
-  const Rational theta(GateOf<double>(bound).theta());
-  const Errors<Rational> exact = MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, meter, theta);
-  Errors<double> errors;
-  errors.acceleration = ToDouble(exact.acceleration);
-  errors.force = ToDouble(exact.force);
-  errors.backward = ToDouble(exact.backward);
-  errors.amplification = ToDouble(exact.amplification);
-  errors.contact = exact.contact;
-  errors.is_finite = exact.is_finite;
-  answer.errors = errors;
+  answer.errors = Converted<double>(MeasureErrors(problem, FrictionLaw::kCoulomb, f, a, bound), &ToDouble);
   if (!answer.Solved() || answer.residual() <= bound) return;
   answer.outcome = Outcome::kUndecided;
   answer.reason = "the errors, evaluated over rationals, are larger than called solved";

@@ -8,6 +8,7 @@
 #include "certify/exact/lemke_space.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 
@@ -36,8 +37,7 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
                       const ExactVector& guess) {
   ModeSystem system;
   std::vector<Rational> unknowns;
-  int row = 0;
-  for (std::size_t i = 0; i < modes.size(); ++i) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const Contact<Rational>& contact = problem.contacts[i];
     const auto unit = [&](int k) {
       ExactVector v = ExactVector::Zero(problem.rows());
@@ -56,8 +56,7 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
       const Rational factor = slips ? contact.mu : Rational(-contact.mu);
       for (int k = 0; k < 2; ++k) system.columns.back()[row + 1 + k] = factor * direction[k];
     }
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
+  });
   system.guess = ExactVector(static_cast<int>(unknowns.size()));
   for (std::size_t j = 0; j < unknowns.size(); ++j) system.guess[static_cast<int>(j)] = unknowns[j];
   return system;
@@ -123,8 +122,7 @@ RationalPolygons MakePolygons(const ExactProblem& problem, int sides) {
 // The modes of a word on polygons; contacts on an edge slip along a point of the circle between its corners.
 std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const OnPolygons& run) {
   std::vector<SpaceMode> modes;
-  int row = 0;
-  for (std::size_t i = 0; i < run.word.size(); ++i) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const LawCell& cell = run.word[i];
     SpaceMode mode = {cell.law, {Rational(0), Rational(0)}};
     if (cell.law == Law::kCorner) mode.direction = run.polygons[i].corner(cell.side);
@@ -138,8 +136,7 @@ std::vector<SpaceMode> ModesOf(const ExactProblem& problem, const OnPolygons& ru
                                                : DirectionBetween(from, to, force);
     }
     modes.push_back(mode);
-    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
-  }
+  });
   return modes;
 }
 
@@ -154,13 +151,13 @@ bool RefineTowards(const std::vector<SpaceMode>& modes, RationalPolygons& polygo
 
 // One step toward (21), (22): whether it is the last.
 bool TryWeak(const ExactProblem& problem, OnPolygons& run, Answer<Rational>& answer) {
-  if (!FindWeakViolation(problem, run.answer.f)) {
+  if (!FindViolation(problem, run.answer.f)) {
     Accept(problem, run.answer.f, answer);
     return true;
   }
   const std::vector<SpaceMode> modes = ModesOf(problem, run);
   const auto f = SolveModes(problem, modes, run.answer.f);
-  if (f && !FindWeakViolation(problem, *f)) {
+  if (f && !FindViolation(problem, *f)) {
     Accept(problem, *f, answer);
     return true;
   }

@@ -17,8 +17,8 @@ std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector&
   Rational max_A = 0;
   for (int i = 0; i < problem.rows(); ++i) max_A = std::max<Rational>(max_A, problem.A(i, i));
   const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
+  ForEachContact(problem, [&](int i, int row, int) {
+    const Contact<Rational>& contact = problem.contacts[i];
     SpaceMode mode = {Law::kFree, {Rational(0), Rational(0)}};
     if (contact.kind == ContactKind::kBilateral) {
       mode.law = Law::kHold;
@@ -33,21 +33,23 @@ std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector&
       mode.direction = NearDirection(target, 45);
     }
     modes.push_back(mode);
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
+  });
   return modes;
 }
 
-// The word of Newton's method from f, solved exactly.
-std::optional<ExactVector> NewtonSolution(const ExactProblem& problem, const ContactProblem<double>& rounded,
-                                          const ExactVector& f) {
+// These modes, solved exactly.
+std::optional<ExactVector> SolveNear(const ExactProblem& problem, const ExactVector& f) {
+  return SolveModes(problem, ModesNear(problem, f, Accelerations(problem, f)), f);
+}
+
+// Where Newton's method goes from f.
+std::optional<ExactVector> NewtonPoint(const ContactProblem<double>& rounded, const ExactVector& f) {
   CoulombSolver<double> solver({.sides = 0});  // from f only
   const ContactProblem<double>::Vector start = f.unaryExpr([](const Rational& x) { return ToDouble(x); });
   if (!start.allFinite() || !rounded.A.allFinite() || !rounded.b.allFinite()) return std::nullopt;
   if (solver.Run(rounded, &start).outcome != Outcome::kSolved) return std::nullopt;
   const Refined refined = Refine(rounded, FrictionLaw::kCoulomb, GateOf<double>(), solver.f());
-  const ExactVector near = refined.f.unaryExpr([](double x) { return Rational(x); });
-  return SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+  return refined.f.unaryExpr([](double x) { return Rational(x); });
 }
 
 // The cosine from which on an angle is at most that up to which forces are called solved.
@@ -62,7 +64,7 @@ std::optional<ExactVector> Turned(const ExactProblem& problem, ExactVector f) {
   std::optional<ExactVector> best;
   std::optional<Rational> least = CoulombBound(problem, f);
   for (int turn = 0; turn < kTurns && least && *least < EnoughBound(); ++turn) {
-    const auto next = SolveModes(problem, ModesNear(problem, f, Accelerations(problem, f)), f);
+    const auto next = SolveNear(problem, f);
     const auto bound = next ? CoulombBound(problem, *next) : std::nullopt;
     if (!bound || *bound <= *least) break;
     best = f = *next;
@@ -74,31 +76,28 @@ std::optional<ExactVector> Turned(const ExactProblem& problem, ExactVector f) {
 // Corners opposite to the accelerations of slipping contacts, with `bits` binary places.
 bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
   bool added = false;
-  int row = 0;
-  for (std::size_t i = 0; i < run.word.size(); ++i) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const bool slips = run.word[i].law == Law::kCorner || run.word[i].law == Law::kEdge;
     if (slips) {
       const Planar<Rational> a = TangentialOf(run.answer.a, row);
       added = run.polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
     }
-    row += problem.contacts[i].HasFrictionRows() ? 3 : 1;
-  }
+  });
   return added;
 }
 
 // The same toward Coulomb's law.
 bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, OnPolygons& run,
                 Answer<Rational>& answer) {
-  const auto consider = [&](const ExactVector& f) {
-    const auto bound = CoulombBound(problem, f);
+  const auto consider = [&](const std::optional<ExactVector>& f) {
+    const auto bound = f ? CoulombBound(problem, *f) : std::nullopt;
     if (!bound || (answer.Solved() && *bound <= *answer.bound)) return;
-    Accept(problem, f, answer);
+    Accept(problem, *f, answer);
     answer.bound = *bound;
   };
   consider(run.answer.f);
-  if (const auto f = NewtonSolution(problem, rounded, run.answer.f)) consider(*f);
-  if (answer.Solved() && *answer.bound < EnoughBound())
-    if (const auto f = Turned(problem, answer.f)) consider(*f);
+  if (const auto near = NewtonPoint(rounded, run.answer.f)) consider(SolveNear(problem, *near));
+  if (answer.Solved() && *answer.bound < EnoughBound()) consider(Turned(problem, answer.f));
   return answer.bound >= EnoughBound() || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
 }
 
@@ -131,14 +130,16 @@ Answer<Rational> SolveNear(const ExactProblem& problem, const Request& request, 
   answer.reason = "the modes near these forces are no solution";
   if (f.size() != problem.rows() || !f.allFinite()) return answer;
   const ExactVector near = f.unaryExpr([](double x) { return Rational(x); });
-  const auto exact = SolveModes(problem, ModesNear(problem, near, Accelerations(problem, near)), near);
+  const auto exact = SolveNear(problem, near);
   if (!exact) return answer;
-  const auto bound = CoulombBound(problem, *exact);
-  if (request.law == FrictionLaw::kBaraff ? FindWeakViolation(problem, *exact).has_value()
-                                          : !bound || *bound <= 0)
+  if (request.law == FrictionLaw::kCoulomb) {
+    const auto bound = CoulombBound(problem, *exact);
+    if (!bound || *bound <= 0) return answer;
+    answer.bound = *bound;
+  } else if (FindViolation(problem, *exact)) {
     return answer;
+  }
   Accept(problem, *exact, answer);
-  if (request.law == FrictionLaw::kCoulomb) answer.bound = *bound;
   CallBounded(answer);
   return answer;
 }
@@ -153,31 +154,6 @@ Answer<Rational> SolveNearFast(const ExactProblem& problem, const Request& reque
   if (answer.outcome == Outcome::kUndecided && !answer.bound)
     answer.reason = "the modes of the fast method's point are no solution";
   return answer;
-}
-
-std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f) {
-  constexpr int kPlaces = 200;
-  if (FindCoulombViolation(problem, f, 0)) return std::nullopt;
-  const ExactVector a = Accelerations(problem, f);
-  Rational least = 1;  // of the squared cosines
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    if (contact.kind == ContactKind::kStatic) {
-      const Rational power = Dot(TangentialOf(f, row), TangentialOf(a, row)), limit = contact.mu * f[row];
-      const Rational full = limit * limit * Dot(TangentialOf(a, row), TangentialOf(a, row));
-      if (full != 0) least = std::min<Rational>(least, power * power / full);
-    }
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
-  if (least == 1) return Rational(1);
-  mpz_class root = (least.get_num() << (2 * kPlaces)) / least.get_den();
-  root = sqrt(root);
-  mpz_class gap = (mpz_class(1) << kPlaces) - root;  // 1 - c, in units of 2^-200
-  const int spare = static_cast<int>(mpz_sizeinbase(gap.get_mpz_t(), 2)) - 8;
-  if (spare > 0) gap = ((gap >> spare) + 1) << spare;
-  Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
-  bound.canonicalize();
-  return bound < 0 ? Rational(0) : bound;
 }
 
 }  // namespace stiction

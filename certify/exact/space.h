@@ -23,8 +23,6 @@
 #ifndef STICTION_CERTIFY_EXACT_SPACE_H_
 #define STICTION_CERTIFY_EXACT_SPACE_H_
 
-#include <optional>
-
 #include "certify/exact/polygons.h"
 
 namespace stiction {
@@ -39,10 +37,6 @@ Answer<Rational> SolveNearFast(const ExactProblem& problem, const Request& reque
 
 // The modes near forces over doubles, f rows x 1, solved exactly; undecided where they are no solution.
 Answer<Rational> SolveNear(const ExactProblem& problem, const Request& request, const Eigen::VectorXd& f);
-
-// The largest bound c of FindCoulombViolation, rounded down: 1 - c to eight binary digits. Empty if f breaks a
-// condition whatever c.
-std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactVector& f);
 
 }  // namespace stiction
 

@@ -7,115 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "solver/problem/units.h"
+
 namespace stiction {
-namespace {
 
-std::optional<std::string> Broken(int contact, const char* condition, const Rational& found) {
-  return fmt::format("contact {}: {} is broken, found {}", contact + 1, condition, ToString(found));
-}
-
-std::optional<std::string> NormalViolation(int contact, const Rational& f, const Rational& a) {
-  if (f < 0) return Broken(contact, "fN >= 0", f);
-  if (a < 0) return Broken(contact, "aN >= 0", a);
-  const Rational product = f * a;
-  if (product != 0) return Broken(contact, "fN aN = 0", product);
-  return std::nullopt;
-}
-
-std::optional<std::string> FrictionViolation(int contact, const Rational& bound, const Rational& f,
-                                             const Rational& a) {
-  const Rational slack = bound - abs(f);
-  if (slack < 0) return Broken(contact, "abs(fF) <= mu fN", slack);
-  const Rational power = a * f;
-  if (power > 0) return Broken(contact, "aF fF <= 0", power);
-  const Rational product = a * slack;
-  if (product != 0) return Broken(contact, "aF (mu fN - abs(fF)) = 0", product);
-  return std::nullopt;
-}
-
-std::optional<std::string> PlanarViolation(int i, const Contact<Rational>& law, int row,
-                                           const ExactProblem::Vector& f, const ExactProblem::Vector& a) {
-  if (law.kind == ContactKind::kBilateral) {
-    return a[row] == 0 ? std::nullopt : Broken(i, "aN = 0", a[row]);
-  }
-  if (auto violation = NormalViolation(i, f[row], a[row])) return violation;
-  if (!law.HasFrictionRows()) return std::nullopt;
-  const Rational bound = law.mu * f[row];
-  if (law.kind == ContactKind::kStatic) return FrictionViolation(i, bound, f[row + 1], a[row + 1]);
-  const Rational excess = f[row + 1] + bound * law.slip[0];
-  return excess == 0 ? std::nullopt : Broken(i, "fF + mu u fN = 0", excess);
-}
-
-// The rows of one contact in space, their forces and accelerations.
-struct ContactInSpace {
-  int number;
-  const Contact<Rational>& law;
-  Rational f_n, f_x, f_y, a_n, a_x, a_y;  // the tangential ones 0 without friction rows
-
-  Rational Bound() const { return law.mu * f_n; }
-  Rational Force() const { return f_x * f_x + f_y * f_y; }         // squared
-  Rational Acceleration() const { return a_x * a_x + a_y * a_y; }  // squared
-  Rational Power() const { return f_x * a_x + f_y * a_y; }
-};
-
-std::optional<std::string> CapViolation(const ContactInSpace& c) {
-  const Rational slack = c.Bound() * c.Bound() - c.Force();
-  if (slack < 0) return Broken(c.number, "fF.fF <= mu^2 fN^2", slack);
-  if (c.Power() > 0) return Broken(c.number, "fF.aF <= 0", c.Power());
-  return std::nullopt;
-}
-
-std::optional<std::string> WeakViolation(const ContactInSpace& c) {
-  if (auto violation = CapViolation(c)) return violation;
-  const Rational product = c.Acceleration() * (c.Bound() * c.Bound() - c.Force());
-  if (product != 0) return Broken(c.number, "aF = 0 or abs(fF) = mu fN", product);
-  return std::nullopt;
-}
-
-std::optional<std::string> CoulombViolation(const ContactInSpace& c, const Rational& bound) {
-  if (auto violation = CapViolation(c)) return violation;
-  const Rational limit = bound * c.Bound();
-  const Rational excess = c.Power() * c.Power() - limit * limit * c.Acceleration();
-  if (excess < 0) return Broken(c.number, "(fF.aF)^2 >= c^2 mu^2 fN^2 aF.aF", excess);
-  return std::nullopt;
-}
-
-std::optional<std::string> SlidingViolation(const ContactInSpace& c) {
-  for (const Rational& gap :
-       {Rational(c.f_x + c.Bound() * c.law.slip[0]), Rational(c.f_y + c.Bound() * c.law.slip[1])}) {
-    if (gap != 0) return Broken(c.number, "fF = -mu fN slip", gap);
-  }
-  return std::nullopt;
-}
-
-// static_violation(contact) is the condition of a static contact.
-template <class StaticViolation>
-std::optional<std::string> FindViolationInSpace(const ExactProblem& problem, const ExactProblem::Vector& f,
-                                                StaticViolation static_violation) {
-  const ExactProblem::Vector a = Accelerations(problem, f);
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-    const Contact<Rational>& law = problem.contacts[i];
-    const bool tangential = law.HasFrictionRows();
-    const auto at = [&](const ExactProblem::Vector& values, int k) {
-      return k == 0 || tangential ? values[row + k] : Rational(0);
-    };
-    const ContactInSpace c = {i, law, at(f, 0), at(f, 1), at(f, 2), at(a, 0), at(a, 1), at(a, 2)};
-    std::optional<std::string> violation;
-    if (law.kind == ContactKind::kBilateral) {
-      if (c.a_n != 0) violation = Broken(i, "aN = 0", c.a_n);
-    } else {
-      violation = NormalViolation(i, c.f_n, c.a_n);
-    }
-    if (!violation && law.kind == ContactKind::kStatic) violation = static_violation(c);
-    if (!violation && law.kind == ContactKind::kSliding) violation = SlidingViolation(c);
-    if (violation) return violation;
-    row += tangential ? 3 : 1;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
+// ---- Accelerations -------------------------------------------------------------------------------
 
 namespace {
 
@@ -177,28 +73,102 @@ ExactProblem::Vector Accelerations(const ExactProblem& problem, const ExactProbl
   return a;
 }
 
-std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f) {
-  return FindViolation(problem, f, Accelerations(problem, f));
+// ---- The law -------------------------------------------------------------------------------------
+
+namespace {
+
+// Friction of a static contact: lengths in the plane, of aF with its sign; in space their squares.
+struct Friction {
+  Rational limit, force, a, power;  // mu fN, abs(fF), aF; fF.aF
+};
+
+Friction FrictionOf(const ExactProblem& problem, int contact, int row, const ExactProblem::Vector& f,
+                    const ExactProblem::Vector& a) {
+  const Rational limit = problem.contacts[contact].mu * f[row];
+  const Rational &fx = f[row + 1], &ax = a[row + 1];
+  if (problem.dimension == 2) return {limit, abs(fx), ax, fx * ax};
+  const Rational &fy = f[row + 2], &ay = a[row + 2];
+  return {limit * limit, fx * fx + fy * fy, ax * ax + ay * ay, fx * ax + fy * ay};
+}
+
+// `together`: conditions on both f and a count, too.
+std::optional<std::string> FindBroken(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                      const ExactProblem::Vector& a, bool together, FrictionLaw law,
+                                      const Rational& bound) {
+  const bool plane = problem.dimension == 2;
+  std::optional<std::string> broken;
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    if (broken) return;
+    const auto require = [&](bool holds, const char* condition, const Rational& found) {
+      if (!holds && !broken)
+        broken = fmt::format("contact {}: {} is broken, found {}", i + 1, condition, ToString(found));
+    };
+    const Contact<Rational>& contact = problem.contacts[i];
+    if (contact.kind == ContactKind::kBilateral) return require(a[row] == 0, "aN = 0", a[row]);
+    require(f[row] >= 0, "fN >= 0", f[row]);
+    require(a[row] >= 0, "aN >= 0", a[row]);
+    if (together) require(f[row] == 0 || a[row] == 0, "fN aN = 0", f[row] * a[row]);
+    if (contact.kind == ContactKind::kSliding) {
+      for (int k = 1; k < rows; ++k) {
+        const Rational gap = f[row + k] + contact.mu * f[row] * contact.slip[k - 1];
+        require(gap == 0, plane ? "fF + mu u fN = 0" : "fF = -mu fN slip", gap);
+      }
+    }
+    if (contact.kind != ContactKind::kStatic) return;
+    const Friction friction = FrictionOf(problem, i, row, f, a);
+    const Rational slack = friction.limit - friction.force;
+    require(slack >= 0, plane ? "abs(fF) <= mu fN" : "fF.fF <= mu^2 fN^2", slack);
+    if (!together) return;
+    require(friction.power <= 0, plane ? "aF fF <= 0" : "fF.aF <= 0", friction.power);
+    if (plane || law == FrictionLaw::kBaraff) {
+      const Rational product = friction.a * slack;
+      require(product == 0, plane ? "aF (mu fN - abs(fF)) = 0" : "aF = 0 or abs(fF) = mu fN", product);
+    } else {
+      const Rational excess = friction.power * friction.power - bound * bound * friction.limit * friction.a;
+      require(excess >= 0, "(fF.aF)^2 >= c^2 mu^2 fN^2 aF.aF", excess);
+    }
+  });
+  return broken;
+}
+
+}  // namespace
+
+std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                         FrictionLaw law, const Rational& bound) {
+  return FindViolation(problem, f, Accelerations(problem, f), law, bound);
 }
 
 std::optional<std::string> FindViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
-                                         const ExactProblem::Vector& a) {
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-    if (auto violation = PlanarViolation(i, problem.contacts[i], row, f, a)) return violation;
-    row += problem.contacts[i].HasFrictionRows() ? 2 : 1;
-  }
-  return std::nullopt;
+                                         const ExactProblem::Vector& a, FrictionLaw law,
+                                         const Rational& bound) {
+  return FindBroken(problem, f, a, /*together=*/true, law, bound);
 }
 
-std::optional<std::string> FindWeakViolation(const ExactProblem& problem, const ExactProblem::Vector& f) {
-  return FindViolationInSpace(problem, f, WeakViolation);
+std::optional<std::string> FindViolationApart(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                              const ExactProblem::Vector& a) {
+  return FindBroken(problem, f, a, /*together=*/false, FrictionLaw::kBaraff, 1);
 }
 
-std::optional<std::string> FindCoulombViolation(const ExactProblem& problem, const ExactProblem::Vector& f,
-                                                const Rational& bound) {
-  return FindViolationInSpace(problem, f,
-                              [&bound](const ContactInSpace& c) { return CoulombViolation(c, bound); });
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f) {
+  constexpr int kPlaces = 200;
+  const ExactProblem::Vector a = Accelerations(problem, f);
+  if (FindViolation(problem, f, a, FrictionLaw::kCoulomb, 0)) return std::nullopt;
+  Rational least = 1;  // of the squared cosines
+  ForEachContact(problem, [&](int i, int row, int) {
+    if (problem.contacts[i].kind != ContactKind::kStatic) return;
+    const Friction friction = FrictionOf(problem, i, row, f, a);
+    const Rational full = friction.limit * friction.a;
+    if (full != 0) least = std::min<Rational>(least, friction.power * friction.power / full);
+  });
+  if (least == 1) return Rational(1);
+  mpz_class root = (least.get_num() << (2 * kPlaces)) / least.get_den();
+  root = sqrt(root);
+  mpz_class gap = (mpz_class(1) << kPlaces) - root;  // 1 - c, in units of 2^-200
+  const int spare = static_cast<int>(mpz_sizeinbase(gap.get_mpz_t(), 2)) - 8;
+  if (spare > 0) gap = ((gap >> spare) + 1) << spare;
+  Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
+  bound.canonicalize();
+  return bound < 0 ? Rational(0) : bound;
 }
 
 }  // namespace stiction

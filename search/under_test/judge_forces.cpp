@@ -13,6 +13,7 @@
 #include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/kinds.h"
+#include "corpus/rounded.h"
 #include "search/under_test/solver_process.h"
 #include "solver/problem/check.h"
 #include "solver/problem/gate.h"
@@ -45,6 +46,16 @@ class ContactJudge {
                const LenientUnits<Rational>& units)
       : problem_(problem), f_(f), a_(a), units_(units) {
     layout_.Assign(problem.contacts, problem.dimension);
+  }
+
+  // Of all contacts, each row between its limits.
+  Missed Within(const std::vector<Rational>& limits) const {
+    Missed worst;
+    for (int i = 0; i < layout_.ContactCount(); ++i) {
+      const Missed missed = Of(i, &limits);
+      worst.Add(missed.amount, missed.name);
+    }
+    return worst;
   }
 
   // `limits`: of the friction of each row, where they are not mu times the normal force.
@@ -99,7 +110,7 @@ class ContactJudge {
 // Forces of the normals alone; empty where they are not unique, or not found.
 std::optional<ForceVector> NormalForces(const ContactProblem<double>& posed) {
   const ContactProblem<double> normals = PosedFor(SolverLaw::kFrictionless, posed);
-  if (!std::holds_alternative<LdltFactors>(DecideDefinite(ExactOf(normals).A))) return std::nullopt;
+  if (!std::holds_alternative<LdltFactors>(DecideDefinite(Unrounded(normals).A))) return std::nullopt;
   return SolutionUnder(SolverLaw::kFrictionless, normals);
 }
 
@@ -119,29 +130,14 @@ std::optional<std::vector<Rational>> LimitsOf(const ContactProblem<double>& pose
   std::vector<double> fixed;
   if (law == SolverLaw::kBox) fixed = FixedBounds(posed);
   if (law == SolverLaw::kFindex && !(normals = NormalForces(posed))) return std::nullopt;
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(posed.contacts.size()); ++i) {
+  ForEachContact(posed, [&](int i, int row, int count) {
     const Rational mu(posed.contacts[i].mu);
     const Rational limit = law == SolverLaw::kBox      ? Rational(fixed[i])
                            : law == SolverLaw::kFindex ? Rational(mu * abs((*normals)[i]))
                                                        : Rational(mu * std::max<Rational>(0, f[row]));
-    const int size = posed.contacts[i].HasFrictionRows() ? posed.dimension : 1;
-    for (int k = 1; k < size; ++k) limits[row + k] = limit;
-    row += size;
-  }
+    for (int k = 1; k < count; ++k) limits[row + k] = limit;
+  });
   return limits;
-}
-
-ExactProblem ExactOf(const ContactProblem<double>& problem) {
-  const auto exact = [](double x) { return Rational(x); };
-  ExactProblem result;
-  result.dimension = problem.dimension;
-  for (const auto& contact : problem.contacts)
-    result.contacts.push_back(
-        {contact.kind, exact(contact.mu), {exact(contact.slip[0]), exact(contact.slip[1])}});
-  result.A = problem.A.unaryExpr(exact);
-  result.b = problem.b.unaryExpr(exact);
-  return result;
 }
 
 namespace {
@@ -155,7 +151,7 @@ Rational TakeOutIdle(const ContactProblem<double>& posed, const Rational& accura
   std::vector<bool> idle(posed.contacts.size(), true);  // by the first contact of a group
   for (int i = 0; i < posed.rows(); ++i)
     if (posed.b[i] != 0) idle[groups.OfRow(i)] = false;
-  const ExactProblem problem = ExactOf(posed);
+  const ExactProblem problem = Unrounded(posed);
   const ForceVector forces = f.unaryExpr([](double x) { return Rational(x); });
   const Rational given = abs(forces.dot(problem.b)), done = abs(forces.dot(problem.A * forces));
   const Rational work = std::min(given, done);
@@ -190,12 +186,10 @@ Examined JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const R
   const bool is_coulombs = IsCoulombs(law, posed.dimension);
   if (is_coulombs && IsSolved(posed, std::min(ToDouble(accuracy), kSolvedResidual<double>), f)) {
     const Eigen::VectorXd a = posed.A * f + posed.b;
-    LenientUnits<double> units;
-    judged.error =
-        std::min(MeasureLeniently(posed, FrictionLaw::kCoulomb, f, a, units).error, ToDouble(accuracy));
+    judged.error = std::min(MeasureLeniently(posed, FrictionLaw::kCoulomb, f, a).error, ToDouble(accuracy));
     return judged;
   }
-  const ExactProblem problem = ExactOf(posed);
+  const ExactProblem problem = Unrounded(posed);
   const ForceVector exact_f = f.unaryExpr([](double x) { return Rational(x); });
   const ForceVector a = Accelerations(problem, exact_f);
   LenientUnits<Rational> units;
@@ -208,10 +202,7 @@ Examined JudgeLoaded(const ContactProblem<double>& posed, SolverLaw law, const R
   } else {
     const auto limits = LimitsOf(posed, law, exact_f);
     if (!limits) return {.kind = "unjudged", .what = "", .says_solved = true};
-    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-      const Missed missed = contacts.Of(i, &*limits);
-      worst.Add(missed.amount, missed.name);
-    }
+    worst = contacts.Within(*limits);
     judged.misses_coulomb = worst.amount <= accuracy && error > accuracy;
     error = worst.amount;
   }
@@ -245,35 +236,18 @@ Examined JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const R
 
 namespace {
 
-// low <= f <= high with a >= 0 where f = low, a <= 0 where f = high, a = 0 elsewhere; high is -low, or endless
-// where low is 0.
-bool HoldsWithin(const ForceVector& f, const ForceVector& a, const std::vector<Rational>& limits,
-                 const std::vector<bool>& is_normal) {
-  for (int i = 0; i < f.size(); ++i) {
-    const Rational low = is_normal[i] ? Rational(0) : Rational(-limits[i]);
-    const bool at_low = f[i] == low && a[i] >= 0, at_high = !is_normal[i] && f[i] == limits[i] && a[i] <= 0;
-    const bool inside = f[i] >= low && (is_normal[i] || f[i] <= limits[i]) && a[i] == 0;
-    if (!at_low && !at_high && !inside) return false;
-  }
-  return true;
-}
-
 // Under fixed bounds of friction, verified: with f = x - L for friction the problem without friction
 //
 //   u = A x + (b - A L) + v >= 0, x >= 0, u x = 0        s = 2 L - x >= 0, v >= 0, s v = 0
 //
 // by Lemke's method, v beside tangents alone. Empty where a contact is bilateral, or none is found.
 std::optional<ForceVector> SolutionWithin(const ExactProblem& posed, const std::vector<Rational>& limits) {
-  std::vector<bool> is_normal;
+  const auto is_held = [](const auto& contact) { return contact.kind == ContactKind::kBilateral; };
+  if (std::any_of(posed.contacts.begin(), posed.contacts.end(), is_held)) return std::nullopt;
   std::vector<int> tangents;
-  for (const auto& contact : posed.contacts) {
-    if (contact.kind == ContactKind::kBilateral) return std::nullopt;
-    is_normal.push_back(true);
-    for (int k = 1; contact.HasFrictionRows() && k < posed.dimension; ++k) {
-      tangents.push_back(static_cast<int>(is_normal.size()));
-      is_normal.push_back(false);
-    }
-  }
+  ForEachContact(posed, [&](int, int row, int count) {
+    for (int k = 1; k < count; ++k) tangents.push_back(row + k);
+  });
   const int rows = posed.rows(), bounded = static_cast<int>(tangents.size());
   ForceVector shift = ForceVector::Zero(rows);
   for (const int row : tangents) shift[row] = limits[row];
@@ -291,14 +265,17 @@ std::optional<ForceVector> SolutionWithin(const ExactProblem& posed, const std::
   const ExactAnswer answer = Solve(doubled, {.method = "lemke"});
   if (!answer.Solved()) return std::nullopt;
   const ForceVector f = answer.f.head(rows) - shift;
-  if (!HoldsWithin(f, Accelerations(posed, f), limits, is_normal)) return std::nullopt;
+  const ForceVector a = Accelerations(posed, f);
+  LenientUnits<Rational> units;
+  units.Take(posed, f);
+  if (ContactJudge(posed, f, a, units).Within(limits).amount > 0) return std::nullopt;
   return f;
 }
 
 }  // namespace
 
 std::optional<ForceVector> SolutionUnder(SolverLaw law, const ContactProblem<double>& posed) {
-  ExactProblem exact = ExactOf(posed);
+  ExactProblem exact = Unrounded(posed);
   if (law == SolverLaw::kBox || law == SolverLaw::kFindex) {
     const auto limits = LimitsOf(posed, law, ForceVector::Zero(posed.rows()));
     return limits ? SolutionWithin(exact, *limits) : std::nullopt;

@@ -50,8 +50,6 @@ struct Examined {
   bool Fails() const;
 };
 
-ExactProblem ExactOf(const ContactProblem<double>& problem);
-
 // The problem as posed (solver_process.h); "unjudged" under `findex` where the problem of the normals has more
 // than one solution.
 Examined JudgeForces(const ContactProblem<double>& posed, SolverLaw law, const Rational& accuracy,

@@ -77,7 +77,7 @@ Blanks BlanksOf(const ContactProblem<double>& problem, SolverLaw law, bool pytho
   if (!exact && law == SolverLaw::kCoulomb) right = NearSolution(problem);
   const ExactProblem::Vector f = right.value_or(ExactProblem::Vector::Zero(problem.rows()));
   LenientUnits<Rational> units;
-  units.Take(ExactOf(problem), f);
+  units.Take(Unrounded(problem), f);
 
   std::map<std::string, std::vector<double>> numbers;
   auto &low = numbers["LOW"], &high = numbers["HIGH"], &findex = numbers["FINDEX"], &limits = numbers["LIMIT"];

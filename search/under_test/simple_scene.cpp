@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/adversary/parents.h"
 #include "search/under_test/judge_forces.h"
@@ -48,7 +49,7 @@ std::optional<Candidate> SimpleSceneOf(const Finding& finding, const Campaign& c
 
 ProblemFile PosedFileOf(const Candidate& scene, SolverLaw law, const std::string& name) {
   ProblemFile file = FileOf(scene, name);
-  file.problem = ExactOf(AsPosed(scene, law));
+  file.problem = Unrounded(AsPosed(scene, law));
   return file;
 }
 

@@ -11,7 +11,7 @@
 
 namespace stiction {
 
-// What its forces are to satisfy; each is judged by its own conditions (judge.h).
+// What its forces are to satisfy; each is judged by its own conditions (judge_forces.h).
 enum class SolverLaw : std::uint8_t { kFrictionless, kBox, kFindex, kPyramid, kCoulomb };
 inline constexpr std::array<std::string_view, 5> kSolverLawNames = {"frictionless", "box", "findex", "pyramid",
                                                                     "coulomb"};

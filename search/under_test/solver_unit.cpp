@@ -13,6 +13,7 @@
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "corpus/rounded.h"
 #include "search/adversary/optimized_unit.h"
 #include "search/under_test/examine.h"
 #include "search/under_test/simple_scene.h"
@@ -150,7 +151,7 @@ class SolverUnit {
       Find(index, examined, 0, [&] {
         const std::string_view generator = Row(assessed.candidate.generator).name;
         ProblemFile file = FileOf(assessed.candidate, fmt::format("{}-{}-{}", generator, unit_, index));
-        file.problem = ExactOf(posed_);
+        file.problem = Unrounded(posed_);
         if (campaign_.solver.law == SolverLaw::kFrictionless) file.scene = {};  // it has friction
         return file;
       });
@@ -226,7 +227,7 @@ class SolverUnit {
   }
 
   void FindDrawn(std::int64_t index, const Examined& examined, std::int64_t leak = 0) {
-    Find(index, examined, leak, [&] { return FileOf(campaign_, unit_, index, ExactOf(posed_)); });
+    Find(index, examined, leak, [&] { return FileOf(campaign_, unit_, index, Unrounded(posed_)); });
   }
 
   // What the solver did with problem `index`, of which file() is the problem; `leak`: bytes of a call.

@@ -177,7 +177,7 @@ void Examiner::CompareFiltered(const Place& place, const Verdict& filtered, cons
 void Examiner::CompareInSpace(const Place& place, Outcome published, const ExactProblem& problem) {
   const Spending spending(collector_.meter(), &ProcessorTime::compared);
   const ExactAnswer complete = methods_.complete_in_space(problem, campaign_.limits);
-  const bool wrong = complete.Solved() && FindWeakViolation(problem, complete.f);
+  const bool wrong = complete.Solved() && FindViolation(problem, complete.f);
   collector_.CountExistence(complete, wrong);
   if (!wrong && complete.outcome != Outcome::kRay) return;
   const std::string what = wrong ? "complete-wrong" : fmt::format("complete-{}", Name(complete.outcome));

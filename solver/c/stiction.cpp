@@ -301,8 +301,7 @@ class Solving {
   double LenientErrorOf(const Factored& factors, const Vector& f) const {
     Vector a = factors.Accelerations(f);
     for (double& x : a) x = std::abs(x) <= options_.noise ? 0 : x;
-    LenientUnits<double> units;
-    return MeasureLeniently(factors, FrictionLaw::kCoulomb, f, a, units).error;
+    return MeasureLeniently(factors, FrictionLaw::kCoulomb, f, a).error;
   }
 
   // Keeps the better forces.

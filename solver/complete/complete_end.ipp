@@ -55,8 +55,7 @@ template <class Scalar, int Rows>
 Scalar CompleteDriving<Scalar, Rows>::Residual() const {
   // The gate looks more closely, and refines.
   if (InSpace()) return PolygonErrors(*problem_, *polygons_, f_, a_, Scalar(1)).Largest();
-  LenientUnits<Scalar> units;
-  return MeasureLeniently(*problem_, FrictionLaw::kCoulomb, f_, a_, units).error;
+  return MeasureLeniently(*problem_, FrictionLaw::kCoulomb, f_, a_).error;
 }
 
 // ---- The trace -------------------------------------------------------------------------------

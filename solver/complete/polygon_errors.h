@@ -17,16 +17,14 @@ template <class Scalar>
 struct FrictionInPolygon {
   const std::vector<FrictionPolygon<Scalar>>& polygons;
 
-  Scalar Excess(int i, const FrictionAt<Scalar>& at) const {
-    return InUnits(Distance(i, at, {at.f[0], at.f[1]}), at.limit);
-  }
+  Scalar Excess(int i, const FrictionAt<Scalar>& at) const { return Distance(i, at, {at.f[0], at.f[1]}); }
   // Where both may move: aF misses as much in its units.
   SlipMiss<Scalar> Slip(int i, const FrictionAt<Scalar>& at) const {
     const Scalar unit = std::max(at.unit[0], at.unit[1]);
     if (!(unit > 0)) return {Excess(i, at), {Scalar(0), Scalar(0)}};
     const Scalar r = at.limit / unit;
     const Planar<Scalar> x = {Scalar(at.f[0] - r * at.a[0]), Scalar(at.f[1] - r * at.a[1])};
-    return {InUnits(Distance(i, at, x), at.limit), {Scalar(0), Scalar(0)}};
+    return {Distance(i, at, x), {Scalar(0), Scalar(0)}};
   }
 
  private:

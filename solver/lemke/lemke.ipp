@@ -524,8 +524,8 @@ template <class Scalar, int Rows>
 Outcome LemkeAlgorithm<Scalar, Rows>::JudgeSolution() {
   if constexpr (!kIsExact<Scalar>) {
     if (polygons_ != nullptr) return Outcome::kSolved;
-    LenientUnits<Scalar> units;  // the gate looks more closely, and refines
-    if (!(MeasureLeniently(*problem_, FrictionLaw::kCoulomb, f_, a_, units).error <= residual_tolerance_)) {
+    // The gate looks more closely, and refines.
+    if (!(MeasureLeniently(*problem_, FrictionLaw::kCoulomb, f_, a_).error <= residual_tolerance_)) {
       verdict_.reason = kImprecise;
       return Outcome::kUndecided;
     }

@@ -178,11 +178,11 @@ class Refinement {
       const bool least = way == Way::kLeastSquares;
       const bool presses = f[row] > 0 || (!least && meter_.a()[row] < 0);
       if (least && !bilateral && !(f[row] > 0) && Touches(row)) idle_.push_back(row);
-      if (bilateral || (modes_[i] != Motion::kSeparates && presses)) {
+      if (bilateral || (modes_[i].motion != Motion::kSeparates && presses)) {
         unknowns_.push_back({row, i, Equation::kAcceleration});
         if (contact.kind == ContactKind::kSliding) {
           for (int k = 0; k < tangents; ++k) directions_[i][k] = -contact.slip[k];
-        } else if (tangents > 0 && contact.mu > 0 && modes_[i] == Motion::kRests) {
+        } else if (tangents > 0 && contact.mu > 0 && modes_[i].motion == Motion::kRests) {
           for (int k = 1; k <= tangents; ++k) unknowns_.push_back({row + k, i, Equation::kAcceleration});
         } else if (tangents > 0 && contact.mu > 0) {
           directions_[i] = Direction(f, row, tangents);
@@ -328,7 +328,7 @@ class Refinement {
   FrictionLaw law_;
   Gate gate_;
   GateMeter<double> meter_;
-  std::vector<Motion> modes_;
+  std::vector<NearestMode<double>> modes_;
   std::vector<Unknown> unknowns_;
   std::vector<int> idle_;                          // normal rows of contacts that touch without force
   std::vector<std::array<double, 2>> directions_;  // by contact: of friction at its limit
@@ -348,20 +348,16 @@ bool IsJammed(const RefinedProblem& problem, const Gate& gate, const RefinedVect
 // Whether what is missed may be noise.
 bool IsNear(const RefinedProblem& problem, FrictionLaw law, const RefinedVector& f) {
   const RefinedVector a = problem.A * f + problem.b;
-  LenientUnits<double> units;
-  return MeasureLeniently(problem, law, f, a, units).error < kHopeless;
+  return MeasureLeniently(problem, law, f, a).error < kHopeless;
 }
 
 }  // namespace
 
-void Clean(const RefinedProblem& problem, const std::vector<Motion>& modes, const RefinedVector& a,
+void Clean(const RefinedProblem& problem, const std::vector<NearestMode<double>>& modes, const RefinedVector& a,
            RefinedVector& f) {
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const int count = RowsOf(problem.contacts[i], problem.dimension);
-    CleanContact(problem.contacts[i], modes[i], count - 1, a.data() + row, f.data() + row);
-    row += count;
-  }
+  ForEachContact(problem, [&](int i, int row, int count) {
+    CleanContact(problem.contacts[i], modes[i].motion, count - 1, a.data() + row, f.data() + row);
+  });
 }
 
 namespace {

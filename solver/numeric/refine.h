@@ -42,8 +42,8 @@ struct Refined {
 Refined Refine(const ContactProblem<double>& problem, FrictionLaw law, const Gate& gate, Eigen::VectorXd f);
 
 // Forces by the modes of their contacts, exactly lawful but for what accelerations miss. a = A f + b.
-void Clean(const ContactProblem<double>& problem, const std::vector<Motion>& modes, const Eigen::VectorXd& a,
-           Eigen::VectorXd& f);
+void Clean(const ContactProblem<double>& problem, const std::vector<NearestMode<double>>& modes,
+           const Eigen::VectorXd& a, Eigen::VectorXd& f);
 
 }  // namespace stiction
 

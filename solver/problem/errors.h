@@ -43,6 +43,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "solver/problem/law.h"
@@ -73,6 +74,13 @@ template <class Scalar>
 Scalar InUnits(const Scalar& x, const Scalar& unit) {
   if (x == 0) return Scalar(0);
   return unit > 0 && x < Infinity<Scalar>() ? Scalar(x / unit) : Infinity<Scalar>();
+}
+
+template <class Vector>
+bool AreFinite(const Vector& f, const Vector& a) {
+  typename Vector::Scalar zero(0);
+  for (int i = 0; i < f.size(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
+  return zero == 0;
 }
 
 // mu x, where mu may be infinite: 0 of an x that is not positive.
@@ -137,6 +145,7 @@ template <class Scalar>
 struct FrictionAt {
   Scalar limit;  // mu fN; may be infinite
   std::array<Scalar, 2> f, a;
+  Scalar force_unit;
   std::array<Scalar, 2> unit;  // of a
   bool on_line;                // in the plane, where friction has one component
 };
@@ -144,7 +153,7 @@ struct FrictionAt {
 // What a slip misses.
 template <class Scalar>
 struct SlipMiss {
-  Scalar force;             // relative to the limit
+  Scalar force;             // N
   std::array<Scalar, 2> a;  // what aF must change by
 };
 
@@ -190,10 +199,20 @@ Scalar NearestOnRay(const FrictionAt<Scalar>& at) {
 
 }  // namespace internal
 
+// How far fF is beyond the disc of radius mu fN, and from its edge.
+template <class Scalar>
+Scalar BeyondDisc(const FrictionAt<Scalar>& at) {
+  return std::max(Scalar(0), Scalar(Length(at.f[0], at.f[1]) - at.limit));
+}
+template <class Scalar>
+Scalar OffDisc(const FrictionAt<Scalar>& at) {
+  return Abs(Scalar(Length(at.f[0], at.f[1]) - at.limit));
+}
+
 // Coulomb's law: aF against fF.
 template <class Scalar>
 SlipMiss<Scalar> MissOfSlip(const FrictionAt<Scalar>& at) {
-  SlipMiss<Scalar> miss{InUnits(Scalar(Abs(Scalar(Length(at.f[0], at.f[1]) - at.limit))), at.limit), at.a};
+  SlipMiss<Scalar> miss{OffDisc(at), at.a};
   if (at.on_line) {
     if ((at.f[0] > 0 && at.a[0] < 0) || (at.f[0] < 0 && at.a[0] > 0)) miss.a[0] = Scalar(0);
     return miss;
@@ -207,8 +226,7 @@ SlipMiss<Scalar> MissOfSlip(const FrictionAt<Scalar>& at) {
 template <class Scalar>
 SlipMiss<Scalar> MissOfFreeSlip(const FrictionAt<Scalar>& at) {
   const Scalar power = at.f[0] * at.a[0] + at.f[1] * at.a[1];
-  SlipMiss<Scalar> miss{InUnits(Scalar(Abs(Scalar(Length(at.f[0], at.f[1]) - at.limit))), at.limit),
-                        {Scalar(0), Scalar(0)}};
+  SlipMiss<Scalar> miss{OffDisc(at), {Scalar(0), Scalar(0)}};
   if (!(power > 0)) return miss;
   const Scalar most = Abs(at.f[0]) * at.unit[0] + Abs(at.f[1]) * at.unit[1];
   if (!(most > 0)) return {miss.force, at.a};
@@ -221,32 +239,103 @@ template <class Scalar>
 struct FrictionInDisc {
   bool free;  // by (21), (22)
 
-  Scalar Excess(int, const FrictionAt<Scalar>& at) const {
-    const Scalar force = Length(at.f[0], at.f[1]);
-    return force > at.limit ? InUnits(Scalar(force - at.limit), at.limit) : Scalar(0);
-  }
+  Scalar Excess(int, const FrictionAt<Scalar>& at) const { return BeyondDisc(at); }
   SlipMiss<Scalar> Slip(int, const FrictionAt<Scalar>& at) const {
     return free ? MissOfFreeSlip(at) : MissOfSlip(at);
   }
 };
 
+// ---- The law ---------------------------------------------------------------------------------
+//
+// It is written here alone, for all measures of what forces miss: the strict one (ErrorMeter), which the gate
+// bounds, and the lenient one (lenient.h). A measure tells errors, by units of its own:
+//
+//   OfRow(x, row)                           a_row misses x
+//   OfTangents(x, row, count)               aF misses x; the contact has `count` rows
+//   OfFriction(x, unit)                     fF misses x
+//   OfForce(problem, f, row)                f_row is not zero
+//   OfForces(problem, f, i, row, touching)  the forces of contact i are not zero; where that is no less than
+//                                           what it misses touching, any such number will do
+//   unit(row), FrictionUnit(i, limit)       the units of a_row and of fF
+//
+// `friction` tells of a static contact with a limit above 0: Excess(i, FrictionAt), how far fF is beyond it;
+// Slip(i, FrictionAt) -> SlipMiss.
+
+// A contact in the nearest of its modes, which misses least.
+template <class Scalar>
+struct NearestMode {
+  Motion motion = Motion::kRests;
+  Scalar error = Scalar(0);                            // the largest of what is missed
+  Scalar friction = Scalar(0);                         // that of fF
+  std::optional<std::array<Scalar, 2>> tangents = {};  // what aF misses, where not any will do
+};
+
+// Of friction, where the contact touches.
+template <class Problem, class Vector, class Measure, class Friction>
+auto NearestFriction(const Problem& problem, const Vector& f, const Vector& a, int i, int row,
+                     const Measure& measure, const Friction& friction) {
+  using Scalar = typename Vector::Scalar;
+  const auto& contact = problem.contacts[i];
+  const int count = problem.dimension;
+  const Scalar zero(0), limit = Limit(Scalar(contact.mu), Scalar(f[row]));
+  FrictionAt<Scalar> at{limit,        {zero, zero}, {zero, zero}, measure.FrictionUnit(i, limit),
+                        {zero, zero}, count == 2};
+  for (int k = 0; k + 1 < count; ++k) {
+    at.f[k] = f[row + 1 + k];
+    at.a[k] = a[row + 1 + k];
+    at.unit[k] = measure.unit(row + 1 + k);
+    if (contact.kind == ContactKind::kSliding) at.f[k] += Scalar(contact.slip[k]) * limit;
+  }
+  NearestMode<Scalar> mode;
+  if (contact.kind == ContactKind::kSliding || limit == 0) {
+    if (contact.kind == ContactKind::kStatic) mode.motion = Motion::kSlips;  // as it likes
+    mode.error = mode.friction = measure.OfFriction(Length(at.f[0], at.f[1]), at.force_unit);
+    return mode;
+  }
+  const bool bounded = limit < Infinity<Scalar>();
+  if (bounded) mode.friction = measure.OfFriction(friction.Excess(i, at), at.force_unit);
+  mode.error = std::max(mode.friction, measure.OfTangents(at.a, row, count));
+  mode.tangents = at.a;
+  if (!bounded || mode.error == 0) return mode;
+  const SlipMiss<Scalar> miss = friction.Slip(i, at);
+  const Scalar of_force = measure.OfFriction(miss.force, at.force_unit);
+  const Scalar slips = std::max(of_force, measure.OfTangents(miss.a, row, count));
+  if (slips < mode.error) mode = {Motion::kSlips, slips, of_force, miss.a};
+  return mode;
+}
+
+// Of contact i, whose normal is in `row`.
+template <class Problem, class Vector, class Measure, class Friction>
+auto NearestModeOf(const Problem& problem, const Vector& f, const Vector& a, int i, int row,
+                   const Measure& measure, const Friction& friction) {
+  using Scalar = typename Vector::Scalar;
+  const auto& contact = problem.contacts[i];
+  NearestMode<Scalar> mode;
+  if (contact.HasFrictionRows()) mode = NearestFriction(problem, f, a, i, row, measure, friction);
+  mode.error = std::max(mode.error, measure.OfRow(Scalar(Abs(Scalar(a[row]))), row));
+  if (contact.kind == ContactKind::kBilateral) return mode;
+  if (f[row] < 0) mode.error = std::max(mode.error, measure.OfForce(problem, f, row));
+  if (mode.error == 0) return mode;
+  Scalar open = measure.OfRow(Scalar(-a[row]), row);
+  if (open < mode.error) open = std::max(open, measure.OfForces(problem, f, i, row, mode));
+  if (open < mode.error) mode = {Motion::kSeparates, open};
+  return mode;
+}
+
 // Measures forces. Memory is kept between calls.
 template <class Scalar>
 class ErrorMeter {
  public:
-  // friction.Excess(contact, FrictionAt): what fF is beyond the limit, relative to it; friction.Slip(contact,
-  // FrictionAt) -> SlipMiss. Of static contacts with a limit above 0. a: A f + b, off by at most rounding[i]
-  // where that is given. Infinite errors only of numbers that are not finite.
+  // a: A f + b, off by at most rounding[i] where that is given. Infinite errors only of numbers that are not
+  // finite.
   template <class Problem, class Vector, class Friction>
   Errors<Scalar> Measure(const Problem& problem, const Vector& f, const Vector& a, const Scalar& theta,
                          const Friction& friction, const std::vector<Scalar>* rounding = nullptr) {
     Errors<Scalar> errors;
-    modes_.assign(problem.contacts.size(), Motion::kRests);
+    modes_.assign(problem.contacts.size(), {});
     size_.assign(problem.rows(), Scalar(0));
     unit_.assign(problem.rows(), Scalar(0));
-    Scalar zero(0);
-    for (int i = 0; i < problem.rows(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);  // of finite numbers only
-    if (!(zero == 0)) {
+    if (!AreFinite(f, a)) {
       errors.is_finite = false;
       errors.acceleration = errors.force = errors.backward = errors.amplification = Infinity<Scalar>();
       return errors;
@@ -255,52 +344,39 @@ class ErrorMeter {
     most_ = Scalar(1) / theta;
     rounding_ = rounding;
     TakeSizes(problem, f);
-    missed_.assign(problem.rows(), Scalar(0));
-    condition_.assign(problem.rows(), Condition::kNone);
-    of_friction_.assign(problem.contacts.size(), Scalar(0));
     has_ghosts_ = false;
-    int row = 0;
-    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-      Take(problem, f, a, i, row, friction);
-      row += RowsOf(problem.contacts[i], problem.dimension);
-    }
-    return Told(problem);
+    ForEachContact(problem, [&](int i, int row, int count) {
+      modes_[i] = NearestModeOf(problem, f, a, i, row, *this, friction);
+      if (modes_[i].motion == Motion::kSeparates) {
+        for (int k = 0; k < count; ++k) {
+          if (f[row + k] != 0) AddGhost(problem, f, i, row + k);
+        }
+      } else if (f[row] < 0 && problem.contacts[i].kind != ContactKind::kBilateral) {
+        AddGhost(problem, f, i, row);
+      }
+    });
+    return Told(problem, a);
   }
 
   // Of each contact, by the measure before.
-  const std::vector<Motion>& modes() const { return modes_; }
+  const std::vector<NearestMode<Scalar>>& modes() const { return modes_; }
   // sum_j abs(A_ij f_j), and the unit of row i.
   const Scalar& size(int row) const { return size_[row]; }
   const Scalar& unit(int row) const { return unit_[row]; }
 
- private:
-  enum class Condition : std::uint8_t { kNone, kZero, kNotNegative };
-
-  template <class Problem, class Vector>
-  void TakeSizes(const Problem& problem, const Vector& f) {
-    ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
-      if (f[j] != 0) size_[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
-    });
-    int row = 0;
-    for (const auto& contact : problem.contacts) {
-      const int count = RowsOf(contact, problem.dimension);
-      const Scalar free = TangentLength(problem.b, row, count);
-      unit_[row] = Abs(Scalar(problem.b[row])) + theta_ * size_[row];
-      for (int k = 1; k < count; ++k) unit_[row + k] = free + theta_ * size_[row + k];
-      row += count;
-    }
+  // The measure of the law.
+  const Scalar& FrictionUnit(int, const Scalar& limit) const { return limit; }
+  Scalar OfRow(const Scalar& x, int row) const { return RowError(Scalar(x + RoundingOf(row)), row); }
+  Scalar OfTangents(const std::array<Scalar, 2>& x, int row, int count) const {
+    Scalar most(0);
+    for (int k = 1; k < count; ++k) most = std::max(most, OfRow(Scalar(Abs(x[k - 1])), row + k));
+    return most;
   }
-
-  Scalar Capped(const Scalar& x) const { return std::min(x, most_); }
-  Scalar RoundingOf(int row) const { return rounding_ == nullptr ? Scalar(0) : (*rounding_)[row]; }
-  Scalar RowError(const Scalar& missed, int row) const {
-    return missed > 0 ? Capped(InUnits(missed, unit_[row])) : Scalar(0);
-  }
-
+  Scalar OfFriction(const Scalar& x, const Scalar& unit) const { return Capped(InUnits(x, unit)); }
   // What force j does to the row that notices it most, in units of that row. One that no row notices, as no
   // force acts there, is a force all the same.
   template <class Problem, class Vector>
-  Scalar Noticed(const Problem& problem, const Vector& f, int j) const {
+  Scalar OfForce(const Problem& problem, const Vector& f, int j) const {
     Scalar most(0);
     if (f[j] == 0) return most;
     bool acts = false;
@@ -311,84 +387,34 @@ class ErrorMeter {
     });
     return acts ? most : most_;
   }
-
-  // A contact: its mode, and what its rows miss there.
-  template <class Problem, class Vector, class Friction>
-  void Take(const Problem& problem, const Vector& f, const Vector& a, int i, int row,
-            const Friction& friction) {
-    const auto& contact = problem.contacts[i];
-    const int count = RowsOf(contact, problem.dimension);
-    missed_[row] = a[row];
-    condition_[row] = Condition::kZero;
-    if (contact.kind == ContactKind::kBilateral) return;
-    const Scalar touching = RowError(Scalar(Abs(a[row]) + RoundingOf(row)), row);
-    Scalar closed = touching;
-    if (f[row] < 0) closed = std::max(closed, Noticed(problem, f, row));
-    if (contact.HasFrictionRows())
-      closed = std::max(closed, TakeFriction(problem, f, a, i, row, count, friction));
-    if (closed == 0) return;
-    Scalar open = RowError(Scalar(RoundingOf(row) - a[row]), row);
-    // Its own row notices a normal force too: mostly enough to see that the contact touches.
-    if (open < closed && f[row] > 0)
-      open = std::max(open, RowError(Scalar(Abs(Scalar(problem.A.coeff(row, row))) * f[row]), row));
-    for (int k = 0; k < count && open < closed; ++k) open = std::max(open, Noticed(problem, f, row + k));
-    if (open < closed) {
-      modes_[i] = Motion::kSeparates;
-      condition_[row] = Condition::kNotNegative;
-      of_friction_[i] = Scalar(0);
-      for (int k = 0; k < count; ++k) {
-        if (k > 0) condition_[row + k] = Condition::kNone;
-        if (f[row + k] != 0) AddGhost(problem, f, i, row + k);
-      }
-    } else if (f[row] < 0) {
-      AddGhost(problem, f, i, row);
-    }
+  // Its own row notices a normal force too: mostly enough to see that the contact touches.
+  template <class Problem, class Vector>
+  Scalar OfForces(const Problem& problem, const Vector& f, int i, int row,
+                  const NearestMode<Scalar>& touching) const {
+    Scalar most(0);
+    if (f[row] > 0) most = RowError(Scalar(Abs(Scalar(problem.A.coeff(row, row))) * f[row]), row);
+    const int end = row + RowsOf(problem.contacts[i], problem.dimension);
+    for (int j = row; j < end && most < touching.error; ++j) most = std::max(most, OfForce(problem, f, j));
+    return most;
   }
 
-  // Of a contact that touches: the error of its friction.
-  template <class Problem, class Vector, class Friction>
-  Scalar TakeFriction(const Problem& problem, const Vector& f, const Vector& a, int i, int row, int count,
-                      const Friction& friction) {
-    const auto& contact = problem.contacts[i];
-    const Scalar limit = Limit(Scalar(contact.mu), Scalar(f[row]));
-    FrictionAt<Scalar> at{
-        limit, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, {Scalar(0), Scalar(0)}, count == 2};
-    std::array<Scalar, 2> sliding = {Scalar(0), Scalar(0)};
-    for (int k = 0; k + 1 < count; ++k) {
-      at.f[k] = f[row + 1 + k];
-      at.a[k] = a[row + 1 + k];
-      at.unit[k] = unit_[row + 1 + k];
-      if (contact.kind == ContactKind::kSliding) sliding[k] = at.f[k] + Scalar(contact.slip[k]) * limit;
-    }
-    if (contact.kind == ContactKind::kSliding)
-      return of_friction_[i] = Capped(InUnits(Length(sliding[0], sliding[1]), limit));
-    if (limit == 0) {  // no friction: the contact may slip as it likes
-      modes_[i] = Motion::kSlips;
-      return of_friction_[i] = at.f[0] == 0 && at.f[1] == 0 ? Scalar(0) : most_;
-    }
-    const Scalar excess = limit < Infinity<Scalar>() ? Capped(friction.Excess(i, at)) : Scalar(0);
-    Scalar rests = excess;
-    for (int k = 0; k + 1 < count; ++k)
-      rests = std::max(rests, RowError(Scalar(Abs(at.a[k]) + RoundingOf(row + 1 + k)), row + 1 + k));
-    std::array<Scalar, 2> missed = at.a;
-    of_friction_[i] = excess;
-    if (limit < Infinity<Scalar>() && rests > 0) {
-      const SlipMiss<Scalar> miss = friction.Slip(i, at);
-      Scalar slips = Capped(miss.force);
-      for (int k = 0; k + 1 < count; ++k)
-        slips = std::max(slips, RowError(Scalar(Abs(miss.a[k]) + RoundingOf(row + 1 + k)), row + 1 + k));
-      if (slips < rests) {
-        modes_[i] = Motion::kSlips;
-        of_friction_[i] = Capped(miss.force);
-        missed = miss.a;
-        rests = slips;
-      }
-    }
-    for (int k = 0; k + 1 < count; ++k) {
-      missed_[row + 1 + k] = missed[k];
-      condition_[row + 1 + k] = Condition::kZero;
-    }
-    return rests;
+ private:
+  template <class Problem, class Vector>
+  void TakeSizes(const Problem& problem, const Vector& f) {
+    ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
+      if (f[j] != 0) size_[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
+    });
+    ForEachContact(problem, [&](int, int row, int count) {
+      const Scalar free = TangentLength(problem.b, row, count);
+      unit_[row] = Abs(Scalar(problem.b[row])) + theta_ * size_[row];
+      for (int k = 1; k < count; ++k) unit_[row + k] = free + theta_ * size_[row + k];
+    });
+  }
+
+  Scalar Capped(const Scalar& x) const { return std::min(x, most_); }
+  Scalar RoundingOf(int row) const { return rounding_ == nullptr ? Scalar(0) : (*rounding_)[row]; }
+  Scalar RowError(const Scalar& missed, int row) const {
+    return missed > 0 ? Capped(InUnits(missed, unit_[row])) : Scalar(0);
   }
 
   // Force j of a contact is taken for zero. One that acts on no row is an error of the contact.
@@ -402,41 +428,40 @@ class ErrorMeter {
       acts = true;
       ghosts_[i] += Scalar(Abs(Scalar(Scalar(x) * f[j])));
     });
-    if (!acts) of_friction_[contact] = most_;
+    if (!acts) modes_[contact].friction = most_;
   }
 
-  template <class Problem>
-  Errors<Scalar> Told(const Problem& problem) {
+  template <class Problem, class Vector>
+  Errors<Scalar> Told(const Problem& problem, const Vector& a) {
     Errors<Scalar> errors;
     Scalar largest(0);
-    int row = 0;
-    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-      const int end = row + RowsOf(problem.contacts[i], problem.dimension);
-      for (; row < end; ++row) {
+    ForEachContact(problem, [&](int i, int first, int count) {
+      const NearestMode<Scalar>& mode = modes_[i];
+      for (int k = 0; k < count; ++k) {
+        const int row = first + k;
         if (has_ghosts_) unit_[row] = std::max(Scalar(0), Scalar(unit_[row] - theta_ * ghosts_[row]));
         const Scalar size = size_[row] + Abs(Scalar(problem.b[row]));
         errors.amplification = std::max(errors.amplification, Capped(InUnits(size, unit_[row])));
         if (has_ghosts_) errors.acceleration = std::max(errors.acceleration, RowError(ghosts_[row], row));
-        if (condition_[row] == Condition::kNone) continue;
-        Scalar missed = condition_[row] == Condition::kZero ? Scalar(Abs(missed_[row])) : Scalar(-missed_[row]);
+        if (k > 0 && !mode.tangents) continue;
+        const Scalar lacks = k > 0 ? (*mode.tangents)[k - 1] : Scalar(a[row]);
+        Scalar missed = mode.motion == Motion::kSeparates ? Scalar(-lacks) : Scalar(Abs(lacks));
         missed += RoundingOf(row);
         if (has_ghosts_) missed += ghosts_[row];
         errors.acceleration = std::max(errors.acceleration, RowError(missed, row));
         if (missed > 0) errors.backward = std::max(errors.backward, InUnits(missed, size));
       }
-      errors.force = std::max(errors.force, of_friction_[i]);
+      errors.force = std::max(errors.force, mode.friction);
       if (errors.Largest() > largest) errors.contact = i;
       largest = errors.Largest();
-    }
+    });
     return errors;
   }
 
   Scalar theta_ = Scalar(1), most_ = Scalar(1);
   const std::vector<Scalar>* rounding_ = nullptr;
-  std::vector<Scalar> size_, unit_, missed_, ghosts_;  // by row
-  std::vector<Condition> condition_;                   // by row
-  std::vector<Scalar> of_friction_;                    // by contact
-  std::vector<Motion> modes_;                          // by contact
+  std::vector<Scalar> size_, unit_, ghosts_;  // by row
+  std::vector<NearestMode<Scalar>> modes_;    // by contact
   bool has_ghosts_ = false;
 };
 
@@ -450,11 +475,13 @@ auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, con
   return meter.Measure(problem, f, a, theta, FrictionInDisc<Scalar>{free}, rounding);
 }
 
+// By the theta of a method that is asked for a residual; 0: of none.
 template <class Problem, class Vector>
-auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a) {
+auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a,
+                   double residual = 0) {
   using Scalar = typename Vector::Scalar;
   ErrorMeter<Scalar> meter;
-  return MeasureErrors(problem, law, f, a, meter, WorkingTheta<Scalar>(0, problem.rows()));
+  return MeasureErrors(problem, law, f, a, meter, WorkingTheta<Scalar>(residual, problem.rows()));
 }
 
 }  // namespace stiction

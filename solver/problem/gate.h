@@ -49,11 +49,9 @@ class GateMeter {
     Accelerate(problem, f, gate);
     for (int i = 0; i < a_.size() && noise > 0; ++i)
       if (Abs(a_[i]) <= Scalar(noise)) a_[i] = Scalar(0);
-    const auto errors = MeasureErrors(problem, law, f, a_, meter_, Scalar(gate.theta()), &rounding_);
     constexpr double kSlack = 1 + 1e-12;  // of the units, which round by a few u
-    const auto above = [](const Scalar& x) { return static_cast<double>(x) * kSlack; };
-    return {above(errors.acceleration),  above(errors.force), above(errors.backward),
-            above(errors.amplification), errors.contact,      errors.is_finite};
+    return Converted<double>(MeasureErrors(problem, law, f, a_, meter_, Scalar(gate.theta()), &rounding_),
+                             [](const Scalar& x) { return static_cast<double>(x) * kSlack; });
   }
 
   // a = A f + b, off by at most rounding()[i].

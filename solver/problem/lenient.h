@@ -11,8 +11,7 @@
 //   slips slowly  the first two, abs(fF - p) / L, p the point of the disc nearest to fF - (L / s_F) aF
 //
 // each the largest of its line, the contact that of its least mode. By (21), (22) a slip has any direction with
-// fF.aF
-// <= 0. Shapes: f, a rows x 1; a = A f + b.
+// fF.aF <= 0. The law itself is that of errors.h. Shapes: f, a rows x 1; a = A f + b.
 
 #ifndef STICTION_SOLVER_PROBLEM_LENIENT_H_
 #define STICTION_SOLVER_PROBLEM_LENIENT_H_
@@ -25,79 +24,67 @@
 
 namespace stiction {
 
-namespace internal {
-
-// The friction of a static contact that touches, in units L of force and s of acceleration.
+// What the law asks of a measure, and of friction.
 template <class Scalar>
-class LenientFriction {
+class LenientMeasure {
  public:
-  LenientFriction(const std::array<Scalar, 2>& f, const std::array<Scalar, 2>& a, const Scalar& limit,
-                  const Scalar& L, const Scalar& s)
-      : f_(f), a_(a), limit_(limit), L_(L), s_(s), force_(Length(f[0], f[1])), speed_(Length(a[0], a[1])) {}
+  LenientMeasure(const LenientUnits<Scalar>& units, FrictionLaw law) : units_(units), law_(law) {}
 
-  Scalar Error(FrictionLaw law, bool on_line) const {
-    Scalar least = std::max(InUnits(speed_, s_), InUnits(std::max(Scalar(0), Scalar(force_ - limit_)), L_));
-    if (!(speed_ > 0) || !(limit_ < Infinity<Scalar>())) return least;
-    if (law == FrictionLaw::kBaraff && !on_line) return std::min(least, FreeSlip());
-    const Scalar x = f_[0] + limit_ * (a_[0] / speed_), y = f_[1] + limit_ * (a_[1] / speed_);
-    least = std::min(least, InUnits(Length(x, y), L_));
-    return on_line ? least : std::min(least, SlowSlip());  // on a line a slow slip gains nothing
+  const Scalar& unit(int row) const { return units_.acceleration(row); }
+  const Scalar& FrictionUnit(int contact, const Scalar&) const { return units_.friction(contact); }
+  Scalar OfRow(const Scalar& x, int row) const { return x > 0 ? InUnits(x, unit(row)) : Scalar(0); }
+  Scalar OfTangents(const std::array<Scalar, 2>& x, int row, int) const {
+    return InUnits(Length(x[0], x[1]), unit(row + 1));
+  }
+  Scalar OfFriction(const Scalar& x, const Scalar& unit) const { return InUnits(x, unit); }
+  template <class Problem, class Vector>
+  Scalar OfForce(const Problem&, const Vector& f, int row) const {
+    return InUnits(Scalar(Abs(Scalar(f[row]))), units_.force(row));
+  }
+  template <class Problem, class Vector>
+  Scalar OfForces(const Problem& problem, const Vector& f, int i, int row,
+                  const NearestMode<Scalar>& touching) const {
+    const auto& contact = problem.contacts[i];
+    const Scalar normal = OfForce(problem, f, row);
+    if (!contact.HasFrictionRows()) return normal;
+    if (contact.kind == ContactKind::kSliding) return std::max(normal, touching.friction);
+    return std::max(normal, InUnits(TangentLength(f, row, problem.dimension), units_.force(row + 1)));
+  }
+
+  Scalar Excess(int, const FrictionAt<Scalar>& at) const { return BeyondDisc(at); }
+  // All of it by its force.
+  SlipMiss<Scalar> Slip(int, const FrictionAt<Scalar>& at) const {
+    SlipMiss<Scalar> miss{Infinity<Scalar>(), {Scalar(0), Scalar(0)}};
+    const Scalar speed = Length(at.a[0], at.a[1]);
+    if (!(speed > 0)) return miss;
+    if (law_ == FrictionLaw::kBaraff && !at.on_line) {
+      const Scalar power = (at.f[0] * at.a[0] + at.f[1] * at.a[1]) / speed;
+      miss.force = std::max(OffDisc(at), power);
+      return miss;
+    }
+    miss.force =
+        Length(Scalar(at.f[0] + at.limit * (at.a[0] / speed)), Scalar(at.f[1] + at.limit * (at.a[1] / speed)));
+    if (!at.on_line) miss.force = std::min(miss.force, OffSlowSlip(at));  // there it gains nothing
+    return miss;
   }
 
  private:
-  Scalar FreeSlip() const {
-    const Scalar power = (f_[0] * a_[0] + f_[1] * a_[1]) / speed_;
-    return InUnits(std::max(Scalar(Abs(Scalar(force_ - limit_))), power), L_);
-  }
-  Scalar SlowSlip() const {
-    if (!(s_ > 0) || !(L_ > 0) || !(L_ < Infinity<Scalar>())) return Infinity<Scalar>();
-    const Scalar r = L_ / s_;
-    Scalar x = f_[0] - r * a_[0], y = f_[1] - r * a_[1];
+  static Scalar OffSlowSlip(const FrictionAt<Scalar>& at) {
+    const Scalar &L = at.force_unit, &s = at.unit[0];
+    if (!(s > 0) || !(L > 0) || !(L < Infinity<Scalar>())) return Infinity<Scalar>();
+    const Scalar r = L / s;
+    Scalar x = at.f[0] - r * at.a[0], y = at.f[1] - r * at.a[1];
     const Scalar length = Length(x, y);
-    if (length > limit_) {
-      x *= limit_ / length;
-      y *= limit_ / length;
+    if (length > at.limit) {
+      x *= at.limit / length;
+      y *= at.limit / length;
     }
-    return InUnits(Length(Scalar(f_[0] - x), Scalar(f_[1] - y)), L_);
+    return Length(Scalar(at.f[0] - x), Scalar(at.f[1] - y));
   }
 
-  std::array<Scalar, 2> f_, a_;
-  Scalar limit_, L_, s_, force_, speed_;
+  const LenientUnits<Scalar>& units_;
+  FrictionLaw law_;
 };
-
-}  // namespace internal
-
-// Of one contact, its normal in `row`.
-template <class Problem, class Vector, class Scalar>
-Scalar LenientErrorOf(const Problem& problem, FrictionLaw law, const LenientUnits<Scalar>& units,
-                      const Vector& f, const Vector& a, int i, int row) {
-  const auto& contact = problem.contacts[i];
-  const Scalar fN = f[row], aN = a[row];
-  const auto accelerates = [&](const Scalar& x) {
-    return x > 0 ? InUnits(x, units.acceleration(row)) : Scalar(0);
-  };
-  const auto forces = [&](const Scalar& x) { return x > 0 ? InUnits(x, units.force(row)) : Scalar(0); };
-  if (contact.kind == ContactKind::kBilateral) return accelerates(Abs(aN));
-  Scalar open = std::max(accelerates(Scalar(-aN)), forces(Abs(fN)));
-  Scalar closed = std::max(accelerates(Abs(aN)), forces(Scalar(-fN)));
-  if (!contact.HasFrictionRows()) return std::min(open, closed);
-  const int count = problem.dimension;
-  std::array<Scalar, 2> force = {Scalar(0), Scalar(0)}, speed = force, missed = force;
-  const Scalar limit = Limit(Scalar(contact.mu), fN);
-  for (int k = 0; k + 1 < count; ++k) {
-    force[k] = f[row + 1 + k];
-    speed[k] = a[row + 1 + k];
-    missed[k] = force[k] + Scalar(contact.slip[k]) * limit;
-  }
-  if (contact.kind == ContactKind::kSliding) {
-    const Scalar miss = InUnits(Length(missed[0], missed[1]), units.friction(i));
-    return std::max(miss, std::min(open, closed));
-  }
-  open = std::max(open, InUnits(Length(force[0], force[1]), units.force(row + 1)));
-  const internal::LenientFriction<Scalar> friction(force, speed, limit, units.friction(i),
-                                                   units.acceleration(row + 1));
-  return std::min(open, std::max(closed, friction.Error(law, count == 2)));
-}
 
 // The largest of all contacts, and where; of numbers that are not finite it is infinite. `units` is written:
 // its memory is kept between calls.
@@ -111,20 +98,22 @@ auto MeasureLeniently(const Problem& problem, FrictionLaw law, const Vector& f, 
                       LenientUnits<typename Vector::Scalar>& units) {
   using Scalar = typename Vector::Scalar;
   LenientError<Scalar> worst;
-  Scalar zero(0);
-  for (int i = 0; i < problem.rows(); ++i) zero += (f[i] - f[i]) + (a[i] - a[i]);
-  if (!(zero == 0)) {
+  if (!AreFinite(f, a)) {
     worst.error = Infinity<Scalar>();
     return worst;
   }
   units.Take(problem, f);
-  int row = 0;
-  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-    const Scalar error = LenientErrorOf(problem, law, units, f, a, i, row);
+  const LenientMeasure<Scalar> measure(units, law);
+  ForEachContact(problem, [&](int i, int row, int) {
+    const Scalar error = NearestModeOf(problem, f, a, i, row, measure, measure).error;
     if (error > worst.error) worst = {error, i};
-    row += RowsOf(problem.contacts[i], problem.dimension);
-  }
+  });
   return worst;
+}
+template <class Problem, class Vector>
+auto MeasureLeniently(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a) {
+  LenientUnits<typename Vector::Scalar> units;
+  return MeasureLeniently(problem, law, f, a, units);
 }
 
 }  // namespace stiction

@@ -46,6 +46,13 @@ struct Errors {
   const Scalar& Largest() const { return std::max(acceleration, force); }
 };
 
+// The same in other numbers: convert(x) of every number x.
+template <class To, class From, class Convert>
+Errors<To> Converted(const Errors<From>& errors, Convert convert) {
+  return {convert(errors.acceleration),  convert(errors.force), convert(errors.backward),
+          convert(errors.amplification), errors.contact,        errors.is_finite};
+}
+
 // Counters of one run; readings.md, 4.
 struct Statistics {
   std::int64_t drives = 0;

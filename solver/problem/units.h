@@ -108,6 +108,16 @@ template <class Scalar>
 int RowsOf(const Contact<Scalar>& contact, int dimension) {
   return contact.HasFrictionRows() ? dimension : 1;
 }
+// visit(contact, its normal row, its number of rows)
+template <class Problem, class Visit>
+void ForEachContact(const Problem& problem, Visit visit) {
+  int row = 0;
+  for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
+    const int count = RowsOf(problem.contacts[i], problem.dimension);
+    visit(i, row, count);
+    row += count;
+  }
+}
 
 // The length of the tangential rows of a contact: from `row` + 1 on, one or two, or none.
 template <class Values>
@@ -154,17 +164,6 @@ class LenientUnits {
   const Scalar& friction(int contact) const { return friction_[contact]; }
 
  private:
-  // visit(contact, its normal row, its number of rows)
-  template <class Problem, class Visit>
-  static void ForEachContact(const Problem& problem, Visit visit) {
-    int row = 0;
-    for (int i = 0; i < static_cast<int>(problem.contacts.size()); ++i) {
-      const int count = RowsOf(problem.contacts[i], problem.dimension);
-      visit(i, row, count);
-      row += count;
-    }
-  }
-
   // F and the diagonal of A.
   template <class Problem, class Vector>
   void Count(const Problem& problem, const Vector& f) {

@@ -104,8 +104,7 @@ void PublishedInSpace<Scalar>::Finish() {
   if constexpr (!kIsExact<Scalar>) {
     const Vector forces = f(), answer = problem_->A * forces + problem_->b;
     const Scalar most = std::max(Scalar(1e-6), 10000 * std::numeric_limits<Scalar>::epsilon());
-    LenientUnits<Scalar> units;
-    if (MeasureLeniently(*problem_, FrictionLaw::kBaraff, forces, answer, units).error > most)
+    if (MeasureLeniently(*problem_, FrictionLaw::kBaraff, forces, answer).error > most)
       return End(Outcome::kUndecided, "rounding: the forces break the conditions");
   }
   End(Outcome::kSolved);

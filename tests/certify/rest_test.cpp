@@ -100,7 +100,7 @@ TEST_CASE("rest: in space up to the circle, past the corners of the first polygo
   REQUIRE(rest);
   CHECK(Accelerations(edge, *rest).isZero());
   CHECK(!FindConeViolation(edge, *rest));
-  CHECK(!FindCoulombViolation(edge, *rest, 1));
+  CHECK(!FindViolation(edge, *rest, FrictionLaw::kCoulomb, 1));
   CHECK(AtRest(Pinched(1, 5, Rational(-59, 10), Rational(79, 10)), Vector({5, 0, 0, 5, 0, 0})));
   CHECK(!AtRest(Pinched(1, 5, Rational(-61, 10), 8), Vector({5, 0, 0, 5, 0, 0})));
   CHECK(!AtRest(Pinched(1, 5, 0, Rational(101, 10)), Vector({5, 0, 0, 5, 0, 0})));

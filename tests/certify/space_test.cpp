@@ -54,9 +54,9 @@ ExactProblem RandomInSpace(int n, int index) {
 
 TEST_CASE("verify in space: (21), (22) leave the direction of slip free, Coulomb does not") {
   const ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
-  const auto weak = [&](std::vector<Rational> f) { return FindWeakViolation(problem, Vector(f)).value_or(""); };
+  const auto weak = [&](std::vector<Rational> f) { return FindViolation(problem, Vector(f)).value_or(""); };
   const auto coulomb = [&](std::vector<Rational> f, Rational c) {
-    return FindCoulombViolation(problem, Vector(f), c).value_or("");
+    return FindViolation(problem, Vector(f), FrictionLaw::kCoulomb, c).value_or("");
   };
   const std::vector<Rational> exact = {1, Rational(-3, 10), Rational(-2, 5)}, turned = {1, Rational(-1, 2), 0};
   CHECK(weak(exact) == "");
@@ -79,15 +79,15 @@ TEST_CASE("verify in space: bilateral and sliding contacts") {
   ExactProblem problem = OneContact(Rational(1, 2), {-1, 3, 4});
   problem.contacts[0].kind = ContactKind::kSliding;
   problem.contacts[0].slip = {Rational(3, 5), Rational(4, 5)};
-  CHECK(!FindWeakViolation(problem, Vector({1, Rational(-3, 10), Rational(-2, 5)})));
-  CHECK(FindWeakViolation(problem, Vector({1, Rational(3, 10), Rational(2, 5)})));
+  CHECK(!FindViolation(problem, Vector({1, Rational(-3, 10), Rational(-2, 5)})));
+  CHECK(FindViolation(problem, Vector({1, Rational(3, 10), Rational(2, 5)})));
   ExactProblem held;
   held.dimension = 3;
   held.contacts = {{ContactKind::kBilateral, 0, {}}};
   held.A = Matrix({{1}});
   held.b = Vector({1});
-  CHECK(!FindWeakViolation(held, Vector({-1})));
-  CHECK(FindWeakViolation(held, Vector({0})));
+  CHECK(!FindViolation(held, Vector({-1})));
+  CHECK(FindViolation(held, Vector({0})));
 }
 
 TEST_CASE("coulomb bound: rounded down, to eight digits of its distance from one") {
@@ -260,7 +260,7 @@ TEST_CASE("space: a solution out of range(A) is found near doubles, where paths 
     CHECK(SolveInSpace(problem, {.law = law}).outcome == Outcome::kRay);
     const ExactAnswer near = SolveNearFast(problem, {.law = law});
     REQUIRE(near.outcome == Outcome::kSolved);
-    CHECK(!FindWeakViolation(problem, near.f));
+    CHECK(!FindViolation(problem, near.f));
     CHECK(CoulombBound(problem, near.f).value() > 1 - Rational(1, 1 << 20));
     const Existence existence = DecideExistence(problem, {}, {}, law);
     CHECK(existence.method == "fast");

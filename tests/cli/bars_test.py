@@ -81,7 +81,7 @@ class Rules(cli.TestCase):
         self.assertIn("certify/request", [one.split(":")[0] for one in bars.cascades(sources)])
         self.assertIn("Request", names(bars.options_of_solving(sources)))
         self.assertIn("certify/exact/verify_solution.cpp", [one.split(":")[0] for one in bars.judges(sources)])
-        self.assertIn("check_in_space", names(bars.judges_in_python("certify/check_certificate.py")))
+        self.assertIn("check_forces", names(bars.judges_in_python("certify/check_certificate.py")))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ namespace stiction::testing {
 // ---- Truth -------------------------------------------------------------------------------------------
 
 // Whether a problem has a solution by Coulomb's law. In the plane by enumeration; in space by an exact answer,
-// whose f may be a solution up to a bound (FindCoulombViolation).
+// whose f may be a solution of Coulomb's law up to a bound.
 struct Truth {
   bool is_known = false, solvable = false;
   ExactVector f = {};
@@ -51,7 +51,7 @@ struct Truth {
 
 inline std::optional<std::string> Violation(const ExactProblem& problem, const ExactVector& f,
                                             const Rational& bound) {
-  return problem.dimension == 2 ? FindViolation(problem, f) : FindCoulombViolation(problem, f, bound);
+  return FindViolation(problem, f, FrictionLaw::kCoulomb, bound);
 }
 
 inline Request RequestFor(std::string_view method, Arithmetic arithmetic,
@@ -111,17 +111,6 @@ inline Step InRows(std::string name, const Case& from, std::vector<Contact<Ratio
 }
 
 inline ExactMatrix Zeros(int rows, int columns) { return ExactMatrix::Constant(rows, columns, Rational(0)); }
-
-// visit(contact, its first row, how many it has).
-template <class Visit>
-void ForEachContact(const ExactProblem& problem, Visit visit) {
-  int row = 0;
-  for (int k = 0; k < static_cast<int>(problem.contacts.size()); ++k) {
-    const int count = RowsOf(problem.contacts[k], problem.dimension);
-    visit(k, row, count);
-    row += count;
-  }
-}
 
 inline int FirstRowOf(const ExactProblem& problem, int contact) {
   int first = 0;

@@ -332,7 +332,7 @@ struct SolvedInSpace {
   SceneModel<Rational, 6> model;
   std::vector<ExactVector> f;
   std::vector<Eigen::Matrix<Rational, 6, 1>> accelerations;
-  Rational bound = 1;  // of FindCoulombViolation, the least of all problems
+  Rational bound = 1;  // of Coulomb's law, the least of all problems
 };
 
 SolvedInSpace SolveScene(const SceneInSpace<Rational>& scene) {
@@ -526,7 +526,7 @@ TEST_CASE(
     const auto full = Assemble(scene, FindContacts(scene), options);
     REQUIRE(full.islands.size() == 1);
     const ExactVector all = ExtendForces(solved.model, solved.f, full);
-    CHECK(FindCoulombViolation(full.Problem(0), all, solved.bound).value_or("") == "");
+    CHECK(FindViolation(full.Problem(0), all, FrictionLaw::kCoulomb, solved.bound).value_or("") == "");
     CHECK(BodyAccelerations(full, {all}) == solved.accelerations);
   }
 }
@@ -552,7 +552,7 @@ TEST_CASE(
   options.minimal = false;
   const auto full = Assemble(scene, FindContacts(scene), options);
   const ExactVector all = ExtendForces(solved.model, solved.f, full);
-  CHECK(FindCoulombViolation(full.Problem(0), all, 1).value_or("") == "");
+  CHECK(FindViolation(full.Problem(0), all, FrictionLaw::kCoulomb, 1).value_or("") == "");
   scene.mu = 1;
   CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
   scene.mu = 0;

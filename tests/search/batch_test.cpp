@@ -39,8 +39,7 @@ double ErrorOfForces(const Small<Rows>& problem, const typename Small<Rows>::Vec
   for (int i = 0; i < Rows; ++i) {
     for (int j = 0; j < Rows; ++j) a[i] += problem.A(i, j) * f[j];
   }
-  LenientUnits<double> units;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a, units).error;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
 }
 
 struct LaneComparison {

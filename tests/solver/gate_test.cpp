@@ -276,8 +276,7 @@ TEST_CASE("gate: noise that methods leave is taken away before it asks") {
 double LenientErrorAt(const ExactProblem& problem, const Eigen::VectorXd& f) {
   const ContactProblem<double> rounded = Rounded<double>(problem);
   const Eigen::VectorXd a = rounded.A * f + rounded.b;
-  LenientUnits<double> units;
-  return MeasureLeniently(rounded, FrictionLaw::kCoulomb, f, a, units).error;
+  return MeasureLeniently(rounded, FrictionLaw::kCoulomb, f, a).error;
 }
 
 TEST_CASE("lenient: friction that is off by a little of the force at its contact accuses nobody") {
