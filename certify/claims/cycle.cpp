@@ -83,7 +83,7 @@ Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names
 
 namespace {
 
-Json LoopToJson(const Policy& policy, const LoopInSpace& loop) {
+Json LoopToJson(const Policy& policy, const RunInSpace& loop) {
   Json witness = {{"policy", PolicyName(policy)},
                   {"kind", loop.punctured ? "punctured"
                            : loop.IsBox() ? "box"
@@ -100,7 +100,7 @@ Json LoopToJson(const Policy& policy, const LoopInSpace& loop) {
   return witness;
 }
 
-Json RayToJson(const Policy& policy, const RayInSpace& ray) {
+Json RayToJson(const Policy& policy, const RunInSpace& ray) {
   return {{"policy", PolicyName(policy)}, {"bits", ray.bits}, {"word", ray.word}};
 }
 
@@ -324,7 +324,7 @@ void RequireFewStepsInSpace(const ExactProblem& problem, const Json& witness) {
       .LongestRow(problem);
 }
 
-LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
+RunInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   const bool punctured = witness.contains("kind") && witness["kind"] == "punctured";
   const bool box = punctured || (witness.contains("kind") && witness["kind"] == "box");
   std::set<std::string> keys = {"policy", "kind", "bits", "start", "period", "word"};
@@ -332,7 +332,7 @@ LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", keys);
   if (!box && witness["kind"] != "states")
     throw Rejected{"witness.kind", Shown(witness["kind"]), "states, box or punctured"};
-  LoopInSpace loop;
+  RunInSpace loop;
   loop.punctured = punctured;
   loop.bits = ReadBits(witness);
   loop.start = ReadInteger(witness["start"], "witness.start", 0);
@@ -364,11 +364,11 @@ void RequireRunInSpace(const ExactProblem& problem) {
 Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness, bool endless) {
   RequireRunInSpace(problem);
   RequireFewStepsInSpace(problem, witness);
-  LoopInSpace loop = ReadLoop(problem, witness);
+  RunInSpace loop = ReadLoop(problem, witness);
   loop.endless = endless;
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   if (const auto fault = FindLoopFault(problem, policy, loop))
-    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+    throw Rejected{"witness." + fault->path, fault->found, fault->expected};
   return {{"policies", 1},
           {"kind", witness["kind"]},
           {"coordinates", loop.charts.size()},
@@ -381,9 +381,9 @@ Json CheckRay(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"policy", "bits", "word"});
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   RequireFewStepsInSpace(problem, witness);
-  const RayInSpace ray = {ReadBits(witness), ReadWord(witness)};
+  const RunInSpace ray = {.bits = ReadBits(witness), .word = ReadWord(witness)};
   if (const auto fault = FindRayFault(problem, policy, ray))
-    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+    throw Rejected{"witness." + fault->path, fault->found, fault->expected};
   return {{"policies", 1}, {"steps", ray.word.size()}};
 }
 

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "certify/exact/modes.h"
+#include "certify/exact/rejected.h"
 #include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
 
@@ -27,9 +28,6 @@ Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witnes
 
 // ---- Reading -----------------------------------------------------------------------------------
 
-struct Rejected {
-  std::string path, found, expected;
-};
 // More work than any checker does for a certificate, whether its claim is true or not.
 struct TooDear : Rejected {};
 

@@ -351,7 +351,7 @@ TEST_CASE("robust: scenes that move, are joined or do not touch have no box") {
   const auto path = [&](const std::function<void(Scene<Rational>&)>& change) {
     Scene<Rational> scene = fit;
     change(scene);
-    return UnfitForBox(scene).value_or(UnfitScene{}).path;
+    return UnfitForBox(scene).value_or(Rejected{}).path;
   };
   CHECK(path([](auto& scene) { scene.bodies[1].velocity[0] = 1; }) == "bodies[1]");
   CHECK(path([](auto& scene) { scene.bodies[0].spin = 1; }) == "bodies[0]");
