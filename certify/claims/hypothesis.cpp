@@ -25,18 +25,16 @@ Json HypothesisCertificate(const ExactProblem& problem) {
   }
   if (IsSymmetric(problem)) {
     const auto range = DecideRange(problem.A, problem.b);
-    if (const auto* point = std::get_if<RangePoint>(&range)) {
-      return MakeCertificate("h", problem, {{"y", VectorToJson(point->x)}});
-    }
+    if (const auto* x = std::get_if<ExactVector>(&range))
+      return MakeCertificate("h", problem, {{"y", VectorToJson(*x)}});
   }
   const auto decision = DecideHypothesis(problem);
-  if (const auto* proof = std::get_if<HypothesisProof>(&decision)) {
-    return MakeCertificate("h", problem, {{"y", VectorToJson(proof->y)}});
-  }
-  const auto* obstacle = std::get_if<HypothesisObstacle>(&decision);
+  if (const auto* y = std::get_if<ExactVector>(&decision))
+    return MakeCertificate("h", problem, {{"y", VectorToJson(*y)}});
+  const auto* obstacle = std::get_if<Obstacle>(&decision);
   if (obstacle == nullptr) return nullptr;
   return MakeCertificate("not-h", problem,
-                         {{"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
+                         {{"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 Json ExistsCertificate(const ExactProblem& problem) {

@@ -44,13 +44,14 @@ Json SymmetryCertificate(const ExactProblem& problem) {
 
 namespace {
 
-Json NegativeCertificate(const ExactProblem& problem, const NegativeCurvature& negative) {
-  return MakeCertificate("not-psd", problem,
-                         {{"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}});
+Json ObstacleCertificate(const char* claim, const char* vector, const ExactProblem& problem,
+                         const Obstacle& obstacle) {
+  return MakeCertificate(claim, problem,
+                         {{vector, VectorToJson(obstacle.x)}, {"value", ToString(obstacle.value)}});
 }
 
 // Of a matrix whose elimination takes minutes: what doubles find, and rationals confirm.
-std::optional<NegativeCurvature> FindNegativeCurvature(const ExactProblem& problem) {
+std::optional<Obstacle> FindNegativeCurvature(const ExactProblem& problem) {
   constexpr int kEliminatedRows = 60;
   if (problem.rows() <= kEliminatedRows) return std::nullopt;
   ProblemFile file;
@@ -61,32 +62,28 @@ std::optional<NegativeCurvature> FindNegativeCurvature(const ExactProblem& probl
 }  // namespace
 
 Json SemidefiniteCertificate(const ExactProblem& problem) {
-  if (const auto found = FindNegativeCurvature(problem)) return NegativeCertificate(problem, *found);
+  if (const auto found = FindNegativeCurvature(problem))
+    return ObstacleCertificate("not-psd", "x", problem, *found);
   const auto decision = DecideSemidefinite(problem.A);
-  if (const auto* negative = std::get_if<NegativeCurvature>(&decision))
-    return NegativeCertificate(problem, *negative);
+  if (const auto* negative = std::get_if<Obstacle>(&decision))
+    return ObstacleCertificate("not-psd", "x", problem, *negative);
   RequireSymmetricToClaim(problem, "psd");
   return MakeCertificate("psd", problem, FactorsToJson(std::get<LdltFactors>(decision)));
 }
 
 Json DefiniteCertificate(const ExactProblem& problem) {
   const auto decision = DecideDefinite(problem.A);
-  if (const auto* flat = std::get_if<NoCurvature>(&decision)) {
-    return MakeCertificate("not-definite", problem,
-                           {{"x", VectorToJson(flat->x)}, {"value", ToString(flat->value)}});
-  }
+  if (const auto* flat = std::get_if<Obstacle>(&decision))
+    return ObstacleCertificate("not-definite", "x", problem, *flat);
   RequireSymmetricToClaim(problem, "definite");
   return MakeCertificate("definite", problem, FactorsToJson(std::get<LdltFactors>(decision)));
 }
 
 Json RangeCertificate(const ExactProblem& problem) {
   const auto decision = DecideRange(problem.A, problem.b);
-  if (const auto* point = std::get_if<RangePoint>(&decision)) {
-    return MakeCertificate("in-range", problem, {{"x", VectorToJson(point->x)}});
-  }
-  const auto& obstacle = std::get<RangeObstacle>(decision);
-  return MakeCertificate("not-in-range", problem,
-                         {{"y", VectorToJson(obstacle.y)}, {"value", ToString(obstacle.value)}});
+  if (const auto* x = std::get_if<ExactVector>(&decision))
+    return MakeCertificate("in-range", problem, {{"x", VectorToJson(*x)}});
+  return ObstacleCertificate("not-in-range", "y", problem, std::get<Obstacle>(decision));
 }
 
 // ---- Checking ----------------------------------------------------------------------------------

@@ -142,7 +142,7 @@ CurvatureBounds BoundCurvature(const SparseProblem& problem) {
   if (const auto x = ProposeNegative(S)) {
     const Rational value = SumOfProducts(*x, Times(problem, *x));
     if (value < 0) {
-      bounds.negative = NegativeCurvature{*x, value};
+      bounds.negative = Obstacle{*x, value};
       bounds.most = ToDouble(value / SumOfProducts(*x, *x));
     }
   }

@@ -18,7 +18,7 @@ void RequireConvex(const ExactMatrix& A) {
                                  i, j, j, i, ToString(A(i, j)), ToString(A(j, i))));
   }
   const auto decision = DecideSemidefinite(A);
-  const auto* curvature = std::get_if<NegativeCurvature>(&decision);
+  const auto* curvature = std::get_if<Obstacle>(&decision);
   if (curvature == nullptr) return;
   std::string contacts;
   for (int i = 0; i < A.rows(); ++i) {

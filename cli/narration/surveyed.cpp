@@ -48,7 +48,7 @@ Json AsymmetryToJson(const SparseProblem& problem) {
 }
 
 // x'Ax / x'x.
-Rational RayleighQuotient(const NegativeCurvature& negative) {
+Rational RayleighQuotient(const Obstacle& negative) {
   Rational square = 0;
   for (const Rational& x : negative.x) square += x * x;
   return negative.value / square;
@@ -68,7 +68,7 @@ Json CurvatureToJson(const SparseProblem& problem, const std::optional<ExactProb
     json["how"] = "exact";
   } else if (dense) {
     const auto decision = DecideSemidefinite(dense->A);
-    const auto* negative = std::get_if<NegativeCurvature>(&decision);
+    const auto* negative = std::get_if<Obstacle>(&decision);
     json["psd"] = negative == nullptr;
     json["how"] = "exact";
     if (negative != nullptr) json["most"] = ToDouble(RayleighQuotient(*negative)) / scale;
@@ -86,7 +86,7 @@ Json RangeToJson(const SparseProblem& problem, const std::optional<ExactProblem>
   if (regular || by_factors || json["distance"] == 0) {
     json["in-range"] = true;
   } else if (dense) {
-    json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(dense->A, dense->b));
+    json["in-range"] = std::holds_alternative<ExactVector>(DecideRange(dense->A, dense->b));
   }
   json["regular"] = regular;
   return json;

@@ -24,8 +24,8 @@ std::optional<ExactVector> Complementary(const ExactProblem& problem, unsigned c
     for (int j = 0; j < problem.rows(); ++j) M(i, j) = in_C ? problem.A(i, j) : Rational(i == j ? 1 : 0);
   }
   const auto solved = DecideRange(M, right);
-  const auto* point = std::get_if<RangePoint>(&solved);
-  return point != nullptr ? std::optional(point->x) : std::nullopt;
+  const auto* point = std::get_if<ExactVector>(&solved);
+  return point != nullptr ? std::optional(*point) : std::nullopt;
 }
 
 std::vector<ExactVector> EnumeratedSolutions(const ExactProblem& problem) {
