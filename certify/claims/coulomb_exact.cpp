@@ -347,8 +347,8 @@ Json CheckCoulombExact(const ExactProblem& problem, const Json& witness) {
   const ExactVector given = Given(fixed, problem.rows());
   const BoxSystem<Rational> system(problem, layout, given, x);
   if (const auto leaving = FindLeaving(system.equations(), inverse, radius))
-    throw Rejected{ElementPath("witness.inverse", leaving->unknown),
-                   fmt::format("{:.3g} radii", ToDouble(leaving->distance / radius)),
+    throw Rejected{ElementPath("witness.inverse", leaving->first),
+                   fmt::format("{:.3g} radii", ToDouble(leaving->second / radius)),
                    "a distance below the radius, as Krawczyk's test asks for"};
   for (const Condition<Rational>& condition : system.positive())
     if (condition.q.Least(radius) <= 0)

@@ -74,9 +74,9 @@ Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& n
 }
 
 Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names) {
-  Json state = {{"sets", SetsToJson(run.state.sets, names)}, {"f", VectorToJson(run.state.f)}};
-  if (run.policy.resume == Resume::kRound && run.state.last_driven_contact >= 0) {
-    state["contact"] = run.state.last_driven_contact + 1;
+  Json state = {{"sets", SetsToJson(run.sets, names)}, {"f", VectorToJson(run.f)}};
+  if (run.policy.resume == Resume::kRound && run.last_driven_contact >= 0) {
+    state["contact"] = run.last_driven_contact + 1;
   }
   return state;
 }
@@ -216,7 +216,7 @@ void CompareState(const ExactRun& run, Json state, const std::string& path,
   for (const auto& [key, value] : expected.items()) keys.insert(key);
   RequireKeys(state, path, keys);
   const ExactVector f = ReadVector(state["f"], path + ".f", static_cast<int>(names.size()));
-  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.state.f[i], ElementPath(path + ".f", i));
+  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.f[i], ElementPath(path + ".f", i));
   keys.erase("f");
   for (const std::string& key : keys) RequireSame(state[key], expected[key], path + "." + key);
 }

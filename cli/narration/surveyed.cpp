@@ -279,8 +279,7 @@ Json RunPublished(const ExactProblem& problem, const Limits& limits) {
   run["seconds"] = watch.Seconds();
   run["pivots"] = published.verdict.statistics.pivots;
   if (!published.verdict.reason.empty()) run["reason"] = published.verdict.reason;
-  if (published.verdict.outcome == Outcome::kSolved)
-    run["residual"] = VerifiedResidual(problem, published.state.f);
+  if (published.verdict.outcome == Outcome::kSolved) run["residual"] = VerifiedResidual(problem, published.f);
   return run;
 }
 

@@ -337,9 +337,9 @@ TEST_CASE("modes: the answer of the published algorithm lies in a word found, on
       if (run.verdict.outcome != Outcome::kSolved) continue;
       int words = 0;
       for (const WordSolution& solution : enumeration.solutions) {
-        const bool within = MeetsModes(problem, solution.word, run.state.f, run.a);
+        const bool within = MeetsModes(problem, solution.word, run.f, run.a);
         words += within;
-        if (within && solution.unique) CHECK(solution.f == run.state.f);
+        if (within && solution.unique) CHECK(solution.f == run.f);
       }
       CHECK(words > 0);
     }

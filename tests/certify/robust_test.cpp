@@ -56,7 +56,7 @@ TEST_CASE("robust: every problem of the box loops with the same start and period
     REQUIRE(near.verdict.outcome == Outcome::kCycle);
     CHECK(near.verdict.start == run.verdict.start);
     CHECK(near.verdict.period == run.verdict.period);
-    CHECK(near.state.sets == run.state.sets);
+    CHECK(near.sets == run.sets);
   }
 }
 
@@ -209,7 +209,7 @@ int PartsOf(const TouchingScene& scene) {
 bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const Request& options) {
   const ExactRun near = RunExact(problem, options);
   return near.verdict.outcome == Outcome::kCycle && near.verdict.start == run.verdict.start &&
-         near.verdict.period == run.verdict.period && near.state.sets == run.state.sets;
+         near.verdict.period == run.verdict.period && near.sets == run.sets;
 }
 
 TEST_CASE("robust: every scene of the box loops with the same start and period") {

@@ -47,7 +47,7 @@ TEST_CASE("frictionless: every policy finds the enumerated solution, and none gi
       CHECK(equal.verdict.outcome == Outcome::kSolved);
       CHECK(equal.verdict.statistics.give_ups == 0);
       CHECK(equal.verdict.statistics.zero_steps == 0);
-      CHECK(RunExact(problem, {.policy = equal.policies.front()}).state.f == solutions.front());
+      CHECK(RunExact(problem, {.policy = equal.policies.front()}).f == solutions.front());
     }
   }
 }
