@@ -199,10 +199,7 @@ std::optional<Rejected> UnfitForBox(const Scene<Rational>& scene) {
 TouchingScene Touching(const Scene<Rational>& scene) {
   STICTION_CHECK(!UnfitForBox(scene), "a scene at rest, without joints, with a contact");
   TouchingScene touching = {scene, FindContacts(scene), {}};
-  AssembleOptions<Rational> full;
-  full.minimal = false;
-  const auto model = Assemble(scene, touching.contacts, full);
-  touching.problem = model.Problem(0);
+  touching.problem = Assemble(scene, touching.contacts, Level::kForces, /*minimal=*/false).Problem(0);
   return touching;
 }
 

@@ -161,9 +161,7 @@ class Off {
       Turn(contact.normal);
       contact.mu *= 1 + radius_ * part_();
     }
-    AssembleOptions<Rational> full;
-    full.minimal = false;
-    return Assemble(scene, contacts, full).Problem(0);
+    return Assemble(scene, contacts, Level::kForces, /*minimal=*/false).Problem(0);
   }
 
  private:
