@@ -471,14 +471,12 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
 // The answer, its certificate as the text of its file.
 py::object CertifyProblem(PythonProblem& problem, const std::string& claim, const std::string& policy,
                           const std::string& law, const Numbers& numbers) {
-  WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
-  SetNumbers(wanted.limits, numbers);
-  wanted.factors = problem.file().factors ? &*problem.file().factors : nullptr;
+  Wanted wanted{.policy = policy, .law = law, .dashes = ""};
+  SetNumbers(wanted.request.limits, numbers);
+  const ExactFactors* factors = problem.file().factors ? &*problem.file().factors : nullptr;
   Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
-    wanted.limits.stop = stop;
-    EnumerationOptions enumeration;
-    enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
-    return CertificateOf(wanted, problem.problem(), kSource, enumeration);
+    wanted.request.limits.stop = stop;
+    return CertificateOf(claim, wanted, problem.problem(), kSource, factors);
   });
   Json& certificate = answer["certificate"];
   if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";

@@ -214,15 +214,12 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-ClaimAnswer OfSemidefinite(const ExactProblem& problem, const ClaimOptions& options) {
-  if (options.factors == nullptr) return ByCertificate(SemidefiniteCertificate(problem));
-  return ByCertificate(MakeCertificate("psd", problem, FactorsWitness(*options.factors)));
+Json SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  return MakeCertificate("psd", problem, FactorsWitness(factors));
 }
 
-ClaimAnswer OfRange(const ExactProblem& problem, const ClaimOptions& options) {
-  const bool by_factors = options.factors != nullptr && IsInRangeByFactors(*options.factors);
-  return ByCertificate(by_factors ? MakeCertificate("in-range", problem, FactorsWitness(*options.factors))
-                                  : RangeCertificate(problem));
+Json RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  return IsInRangeByFactors(factors) ? MakeCertificate("in-range", problem, FactorsWitness(factors)) : Json();
 }
 
 }  // namespace
@@ -234,7 +231,11 @@ ClaimRows MatrixClaims() {
             .check = CheckNotSymmetric,
             .meaning = "an entry of A is unlike its mirror",
             .negative = true},
-      Claim{"psd", CheckSemidefinite, "A is positive semidefinite", OfSemidefinite},
+      Claim{.name = "psd",
+            .check = CheckSemidefinite,
+            .meaning = "A is positive semidefinite",
+            .certify = Alone<SemidefiniteCertificate>,
+            .by_factors = SemidefiniteByFactors},
       Claim{
           .name = "not-psd", .check = CheckNotSemidefinite, .meaning = "x'Ax < 0 for some x", .negative = true},
       Claim{"definite", CheckDefinite, "A is positive definite", Alone<DefiniteCertificate>},
@@ -242,7 +243,11 @@ ClaimRows MatrixClaims() {
             .check = CheckNotDefinite,
             .meaning = "x'Ax <= 0 for some x that is not zero",
             .negative = true},
-      Claim{"in-range", CheckInRange, "b is in the range of A", OfRange},
+      Claim{.name = "in-range",
+            .check = CheckInRange,
+            .meaning = "b is in the range of A",
+            .certify = Alone<RangeCertificate>,
+            .by_factors = RangeByFactors},
       Claim{.name = "not-in-range",
             .check = CheckNotInRange,
             .meaning = "some y has y'A = 0 and y'b /= 0",

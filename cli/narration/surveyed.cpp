@@ -221,10 +221,10 @@ std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& con
 // The certificate of the whole, null if undecided; and the methods that made it.
 std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
                                             const std::vector<std::vector<int>>& groups, const Limits& limits) {
-  EnumerationOptions options;
-  options.programs = kSurveyPrograms;
+  Request request = {.law = FrictionLaw::kBaraff, .limits = limits};
+  request.limits.programs = kSurveyPrograms;
   if (groups.size() <= 1) {
-    Existence existence = DecideExistence(problem, limits, options);
+    ClaimAnswer existence = DecideExistence(problem, request);
     return {std::move(existence.certificate), std::string(existence.method)};
   }
   ExactVector f(problem.rows());
@@ -235,7 +235,7 @@ std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
     for (const int contact : group) part.contacts.push_back(problem.contacts[contact]);
     part.A = problem.A(rows, rows);
     part.b = problem.b(rows);
-    const Existence existence = DecideExistence(part, limits, options);
+    const ClaimAnswer existence = DecideExistence(part, request);
     methods.emplace(existence.method);
     if (existence.certificate.is_null()) return {nullptr, std::string(existence.method)};
     if (existence.certificate["claim"] != "solution-exists") {

@@ -76,9 +76,8 @@ struct Decided {
 
 Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source, const Limits& limits,
                           const std::function<bool()>& cancelled) {
-  EnumerationOptions options;
-  options.progress = [&cancelled](const EnumerationProgress&) { return !cancelled(); };
-  const Existence existence = DecideExistence(problem, limits, options);
+  const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits},
+                                                [&cancelled](const Enumeration&) { return !cancelled(); });
   const bool decided = !existence.certificate.is_null();
   Decided result;
   if (decided) result.certificate = Checked(existence.certificate, source);
@@ -194,7 +193,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
 }
 
 std::string ExistenceInSpace(const ExactProblem& problem, const std::string& source, const Limits& limits) {
-  const Existence existence = DecideExistence(problem, limits, {});
+  const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits});
   return existence.certificate.is_null() ? std::string() : Checked(existence.certificate, source);
 }
 
