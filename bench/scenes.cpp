@@ -41,11 +41,10 @@ template <class Kind>
 void RunOnce(const SceneFileIn<Kind>& file, Way& way) {
   constexpr std::int64_t kFrames = 600;  // at most
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, way.threads);
-  SimulationOptions options;
-  options.step = ToDouble(file.step);
-  options.minimal = way.minimal;
-  const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / options.step), 1, kFrames);
-  SimulationIn<Kind> simulation(Round(file.scene), options);
+  const double step = ToDouble(file.step);
+  const auto frames = std::clamp<std::int64_t>(std::llround(ToDouble(file.seconds) / step), 1, kFrames);
+  SimulationIn<Kind> simulation(Round(file.scene), step);
+  simulation.minimal = way.minimal;
   const Stopwatch watch(CLOCK_MONOTONIC);  // threads of their own
   try {
     for (std::int64_t k = 0; k < frames; ++k) simulation.Step();

@@ -30,7 +30,8 @@
 namespace stiction {
 namespace {
 
-struct CertifyOptions : WantedClaim {
+struct CertifyOptions : Wanted {
+  std::string claim = "existence";
   std::string file;
   std::string output;
   bool all = false;
@@ -40,18 +41,17 @@ struct CertifyOptions : WantedClaim {
   bool json = false;
 };
 
-// Options of an enumeration that is shown from when it begins to when the bar goes.
-EnumerationOptions Shown(ProgressBar& bar) {
-  EnumerationOptions options;
-  options.progress = [&bar](const EnumerationProgress& progress) {
-    if (progress.prefixes % 64 == 0) {
-      bar.Show(progress.decided, fmt::format("{:.1f} % of all mode words, {}, {}", 100 * progress.decided,
-                                             Counted(progress.programs, "linear program"),
-                                             Counted(progress.solutions, "solution")));
+// An enumeration is shown from when it begins to when the bar goes.
+EnumerationWatch ShownBy(ProgressBar& bar) {
+  return [&bar](const Enumeration& modes) {
+    if (modes.prefixes % 64 == 0) {
+      bar.Show(modes.decided,
+               fmt::format("{:.1f} % of all mode words, {}, {}", 100 * modes.decided,
+                           Counted(modes.programs, "linear program"),
+                           Counted(static_cast<std::int64_t>(modes.solutions.size()), "solution")));
     }
     return true;
   };
-  return options;
 }
 
 std::string SolutionsText(const Enumeration& modes) {
@@ -70,7 +70,7 @@ std::string SolutionsText(const Enumeration& modes) {
 int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   RequirePlanar(file.problem, o.file);
   ProgressBar bar;
-  const Enumeration modes = EnumerateModes(file.problem, Shown(bar));
+  const Enumeration modes = EnumerateModes(file.problem, {}, ShownBy(bar));
   bar.Clear();
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
@@ -138,7 +138,7 @@ int ShowRadius(const CertifyOptions& o, const ProblemFile& file) {
   Json rows = Json::array();
   bool all = true;
   for (const Policy& policy : PoliciesAsked(o.policy, file.problem.dimension())) {
-    const Request request = {.policy = policy, .limits = o.limits};
+    const Request request = {.policy = policy, .limits = o.request.limits};
     const std::string name = PolicyName(policy);
     const auto radius = RadiusOfLoop(file.problem, request);
     Json& row = rows.emplace_back(Json{{"policy", name}, {"radius", RadiusToJson(radius)}});
@@ -204,9 +204,8 @@ int RunCertify(const CertifyOptions& o) {
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);
   ProgressBar bar;
-  WantedClaim wanted = o;
-  wanted.factors = o.coq ? nullptr : file.problem.factors();
-  const Json answer = CertificateOf(wanted, file.problem, o.file, Shown(bar));
+  const ExactFactors* factors = o.coq ? nullptr : file.problem.factors();
+  const Json answer = CertificateOf(o.claim, o, file.problem, o.file, factors, ShownBy(bar));
   bar.Clear();
   const Json& certificate = answer["certificate"];
   const bool certified = certificate.is_object();
@@ -324,7 +323,7 @@ const ListedVerb kCertifyVerb("Prove", 10, [](CommandLine& program) {
        weakly_safe?: truth, vanishing_words?: integer, negative_word?: [mode],
        limit?: {safe: truth, word?: [mode], threshold?: threshold}} |
       certificate | [{policy: text, radius: exact | null, scene_radius?: exact | null}])");
-  AddLimits(verb, o.limits);
+  AddLimits(verb, o.request.limits);
 });
 
 const ListedVerb kCheckVerb("Prove", 20, [](CommandLine& program) {

@@ -76,13 +76,12 @@ SceneFileIn<Kind> WithGivenContacts(SceneFileIn<Kind> file,
 template <class Kind>
 int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto contacts = FindContacts(file.scene);
-  const AssembleOptions<Rational> options = o.assembly();
-  const auto model = Assemble(file.scene, contacts, options);
+  const auto model = Assemble(file.scene, contacts, o.AtLevel(), !o.full);
   if (!o.given.empty()) WriteText(o.given, Print(WithGivenContacts(file, contacts)));
   std::string text;
   Json written = Json::array(), explained = Json::array();
   for (const int i : model.colliding) {
-    if (options.level == Level::kForces) {
+    if (o.AtLevel() == Level::kForces) {
       std::cerr << fmt::format(
           "stiction: {}: contact {} approaches; a collision (--level impulses) comes first\n", o.scene, i + 1);
     }
@@ -105,7 +104,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   }
   if (model.islands.empty()) text += "no contacts and no joints: nothing to solve\n";
   if (o.explain) {
-    for (const std::string& line : Explain(file.scene, contacts, model, options)) {
+    for (const std::string& line : Explain(file.scene, contacts, model, o.AtLevel())) {
       text += line + "\n";
       explained.push_back(line);
     }
@@ -351,10 +350,7 @@ template <class Kind>
 int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     o.threads > 0 ? o.threads : tbb::info::default_concurrency());
-  SimulationOptions options;
-  options.step = o.step ? *o.step : StepOf(file, o.scene);
-  options.rest = o.rest;
-  options.minimal = !o.full;
+  const double step = o.step ? *o.step : StepOf(file, o.scene);
   const double seconds = o.seconds ? *o.seconds : SecondsOf(file, o.scene);
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationWriter<Kind> writer(o);
@@ -371,8 +367,9 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
     };
   }
   const std::atomic<bool>& interrupted = Interruption();
-  SimulationIn<Kind> simulation(scene, options, observe);
-  const auto steps = static_cast<std::int64_t>(std::llround(seconds / options.step));
+  SimulationIn<Kind> simulation(scene, step, o.rest, observe);
+  simulation.minimal = !o.full;
+  const auto steps = static_cast<std::int64_t>(std::llround(seconds / step));
   try {
     Run(simulation, steps, o.frames_a_second, interrupted, writer);
   } catch (const SimulationError& error) {
@@ -403,9 +400,7 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
 template <class Kind>
 int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
-  SimulationOptions options;
-  options.step = StepOf(file, o.scene);
-  SimulationIn<Kind> simulation(scene, options);
+  SimulationIn<Kind> simulation(scene, StepOf(file, o.scene));
   std::vector<TouchPointIn<Kind, double>> touches;
   MarksIn<Kind> marks;
   try {

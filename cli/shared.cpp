@@ -47,10 +47,10 @@ void AddNumbers(Verb& verb, Options& options, const char* group) {
 void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
   if (problem.dimension != 2 || HasSlidingContact(problem)) return;
   const auto hypothesis = DecideHypothesis(problem);
-  const auto* obstacle = std::get_if<HypothesisObstacle>(&hypothesis);
+  const auto* obstacle = std::get_if<Obstacle>(&hypothesis);
   if (obstacle == nullptr) return;
   failed.push_back(
-      {{"assumption", "h"}, {"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
+      {{"assumption", "h"}, {"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 // The switch or value that is meant by the first setting that names no switch or none of its values.
@@ -130,7 +130,7 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
 
 namespace {
 
-Json FailedSemidefinite(const NegativeCurvature& negative) {
+Json FailedSemidefinite(const Obstacle& negative) {
   return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
 }
 
@@ -168,13 +168,13 @@ void AddAsymmetry(const AnyProblem& problem, Json& failed) {
 
 void AddExactAssumptions(const ExactProblem& problem, Json& failed) {
   const auto semidefinite = DecideSemidefinite(problem.A);
-  if (const auto* negative = std::get_if<NegativeCurvature>(&semidefinite)) {
+  if (const auto* negative = std::get_if<Obstacle>(&semidefinite)) {
     failed.push_back(FailedSemidefinite(*negative));
   }
   const auto range = DecideRange(problem.A, problem.b);
-  if (const auto* obstacle = std::get_if<RangeObstacle>(&range)) {
+  if (const auto* obstacle = std::get_if<Obstacle>(&range)) {
     failed.push_back(
-        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->y)}, {"value", ToString(obstacle->value)}});
+        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
     AddFailedHypothesis(problem, failed);
   }
 }

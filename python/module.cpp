@@ -429,15 +429,12 @@ py::object EndsOfProblem(PythonProblem& problem, const std::string& arithmetic, 
 // The answer, its certificate as the text of its file.
 py::object CertifyProblem(PythonProblem& problem, const std::string& claim, const std::string& policy,
                           const std::string& law, const Numbers& numbers) {
-  WantedClaim wanted{.claim = claim, .policy = policy, .law = law, .dashes = ""};
-  SetNumbers(wanted.limits, numbers);
+  Wanted wanted{.policy = policy, .law = law, .dashes = ""};
+  SetNumbers(wanted.request.limits, numbers);
   const ExactProblem& dense = problem.dense();
-  wanted.factors = problem.problem().factors();
   Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
-    wanted.limits.stop = stop;
-    EnumerationOptions enumeration;
-    enumeration.progress = [stop](const EnumerationProgress&) { return !*stop; };
-    return CertificateOf(wanted, dense, kSource, enumeration);
+    wanted.request.limits.stop = stop;
+    return CertificateOf(claim, wanted, dense, kSource, problem.problem().factors());
   });
   Json& certificate = answer["certificate"];
   if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";

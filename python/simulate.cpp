@@ -105,10 +105,8 @@ struct ArraysOfRun {
 };
 
 template <class Kind>
-ArraysOfRun<Kind> RunArrays(const SceneIn<Kind, double>& scene, const SimulationOptions& options,
-                            std::int64_t steps, const std::atomic<bool>* stop) {
+ArraysOfRun<Kind> RunArrays(SimulationIn<Kind>& simulation, std::int64_t steps, const std::atomic<bool>* stop) {
   ArraysOfRun<Kind> run;
-  SimulationIn<Kind> simulation(scene, options);
   run.AddState(simulation);
   try {
     for (std::int64_t k = 0; k < steps && !*stop; ++k) {
@@ -120,7 +118,7 @@ ArraysOfRun<Kind> RunArrays(const SceneIn<Kind, double>& scene, const Simulation
   } catch (const SimulationError& error) {
     run.reason = error.what();
   }
-  for (const BodyMotion& motion : run.track.Motions()) run.motion.Add({scene, motion});
+  for (const BodyMotion& motion : run.track.Motions()) run.motion.Add({simulation.scene(), motion});
   run.statistics = simulation.statistics();
   return run;
 }
@@ -132,30 +130,32 @@ struct AskedRun {
   bool full = false;
 
   template <class Kind>
-  SimulationOptions OptionsFor(const SceneFileIn<Kind>& file, const std::string& source) const {
-    SimulationOptions options;
-    options.step = step ? *step : StepOf(file, source);
-    options.rest = rest;
-    options.minimal = !full;
-    return options;
+  double StepFor(const SceneFileIn<Kind>& file, const std::string& source) const {
+    return step ? *step : StepOf(file, source);
   }
   template <class Kind>
-  std::int64_t StepsFor(const SceneFileIn<Kind>& file, const std::string& source, double step_size) const {
-    return std::llround((seconds ? *seconds : SecondsOf(file, source)) / step_size);
+  SimulationIn<Kind> Begin(const SceneFileIn<Kind>& file, const std::string& source) const {
+    const double h = StepFor(file, source);
+    SimulationIn<Kind> simulation(RoundedScene(file, source), h, rest);
+    simulation.minimal = !full;
+    return simulation;
+  }
+  template <class Kind>
+  std::int64_t StepsFor(const SceneFileIn<Kind>& file, const std::string& source) const {
+    return std::llround((seconds ? *seconds : SecondsOf(file, source)) / StepFor(file, source));
   }
 };
 
 template <class Kind>
 py::dict SimulateScene(const SceneFileIn<Kind>& file, const std::string& source, const AskedRun& asked) {
-  const SimulationOptions options = asked.OptionsFor(file, source);
-  const std::int64_t steps = asked.StepsFor(file, source, options.step);
-  const SceneIn<Kind, double> scene = RoundedScene(file, source);
-  auto run = Interruptible(
-      0, [&](const std::atomic<bool>* stop) { return RunArrays<Kind>(scene, options, steps, stop); });
+  SimulationIn<Kind> simulation = asked.Begin(file, source);
+  const std::int64_t steps = asked.StepsFor(file, source);
+  auto run =
+      Interruptible(0, [&](const std::atomic<bool>* stop) { return RunArrays(simulation, steps, stop); });
   py::dict said, statistics;
   ForEachField(run.statistics,
                [&statistics](const char* name, const char*, std::int64_t value) { statistics[name] = value; });
-  said["name"] = scene.name;
+  said["name"] = simulation.scene().name;
   said["dimension"] = Kind::kDimension;
   said["bodies"] = run.bodies.Take();
   said["contacts"] = run.contacts.Take();
@@ -193,7 +193,7 @@ std::vector<std::string> AssembleText(const std::string& text, const std::string
     throw InputError(fmt::format("level: found {}, expected forces or impulses", level));
   const SceneProblemOptions options{level, factors, full};
   const auto assemble = [&](const auto& file) {
-    const auto model = Assemble(file.scene, FindContacts(file.scene), options.assembly());
+    const auto model = Assemble(file.scene, FindContacts(file.scene), options.AtLevel(), !options.full);
     std::vector<std::string> texts;
     for (const ProblemFile& problem : ProblemsOf(file, model, options)) texts.push_back(Print(problem));
     return texts;
@@ -205,10 +205,9 @@ std::vector<std::string> AssembleText(const std::string& text, const std::string
 // The page that plays a run, thirty frames a second, as `stiction simulate` writes it; without the problems of
 // its frames. Where a step has no answer, the run ends.
 template <class Kind>
-std::string PageOfRun(const SceneIn<Kind, double>& scene, const SimulationOptions& options, std::int64_t steps,
-                      const std::atomic<bool>* stop) {
+std::string PageOfRun(SimulationIn<Kind>& simulation, std::int64_t steps, const std::atomic<bool>* stop) {
   constexpr double kRate = 30;  // frames a second
-  SimulationIn<Kind> simulation(scene, options);
+  const SceneIn<Kind, double> scene = simulation.scene();
   MotionTrack<Kind> track;
   View view;
   std::vector<FrameIn<Kind>> frames;
@@ -258,11 +257,10 @@ std::string SimulationPage(const std::string& text, const std::string& source, s
   const AskedRun asked = Asked(seconds, step, rest, full);
   return std::visit(
       [&]<class Kind>(const SceneFileIn<Kind>& file) {
-        const SimulationOptions options = asked.OptionsFor(file, source);
-        const std::int64_t steps = asked.StepsFor(file, source, options.step);
-        const SceneIn<Kind, double> scene = RoundedScene(file, source);
-        return Interruptible(
-            0, [&](const std::atomic<bool>* stop) { return PageOfRun<Kind>(scene, options, steps, stop); });
+        SimulationIn<Kind> simulation = asked.Begin(file, source);
+        const std::int64_t steps = asked.StepsFor(file, source);
+        return Interruptible(0,
+                             [&](const std::atomic<bool>* stop) { return PageOfRun(simulation, steps, stop); });
       },
       ParseAnyScene(text, source));
 }

@@ -12,9 +12,9 @@ namespace stiction {
   template std::vector<ConstraintIn<Kind, Scalar>> JointConstraints(const SceneIn<Kind, Scalar>&);         \
   template ConstraintIn<Kind, Scalar> ContactConstraint(const SceneIn<Kind, Scalar>&,                      \
                                                         const TouchPointIn<Kind, Scalar>&);                \
-  template ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>&,                                    \
-                                          const std::vector<TouchPointIn<Kind, Scalar>>&,                  \
-                                          const AssembleOptions<Scalar>&);                                 \
+  template ModelIn<Kind, Scalar> Assemble(                                                                 \
+      const SceneIn<Kind, Scalar>&, const std::vector<TouchPointIn<Kind, Scalar>>&, Level, bool,           \
+      const std::type_identity_t<Scalar>&, const std::type_identity_t<Scalar>&);                           \
   template ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Kind::kDof>>&,     \
                                                  const std::vector<ConstraintIn<Kind, Scalar>>&,           \
                                                  const Island&);                                           \
@@ -32,7 +32,7 @@ namespace stiction {
       const ModelIn<Kind, Scalar>&);                                                                       \
   template std::vector<std::string> Explain(const SceneIn<Kind, Scalar>&,                                  \
                                             const std::vector<TouchPointIn<Kind, Scalar>>&,                \
-                                            const ModelIn<Kind, Scalar>&, const AssembleOptions<Scalar>&)
+                                            const ModelIn<Kind, Scalar>&, Level)
 
 STICTION_INSTANTIATE(Plane, double);
 STICTION_INSTANTIATE(Plane, mpq_class);

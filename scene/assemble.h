@@ -36,6 +36,7 @@
 #define STICTION_SCENE_ASSEMBLE_H_
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "scene/rows.h"
@@ -45,32 +46,13 @@ namespace stiction {
 enum class Level : std::uint8_t { kForces, kImpulses, kPositions };
 inline constexpr std::array kLevelNames = {"forces", "impulses", "positions"};
 
-template <class Scalar>
-struct AssembleOptions {
-  Level level = Level::kForces;
-  Scalar step = Scalar(0);    // h, s; 0: the instant itself
-  Scalar before = Scalar(0);  // of the step before, s; velocities are those of its middle; 0: of this instant
-  // False: islands together, redundant contacts kept, friction rows for every contact, and, with a step > 0,
-  // contacts that part. (At the instant itself those have no row: f = 0 is no condition of (15).)
-  bool minimal = true;
-  // Contacts, by number:
-  std::vector<bool> held;     // that count as static whatever their tangential speed
-  std::vector<bool> closing;  // that stay although they part; step > 0
-};
-
-enum class OmissionReason : std::uint8_t { kSeparating, kRedundant };
-
-struct Omission {
-  int contact = 0;
-  OmissionReason reason = OmissionReason::kSeparating;
-};
-
 template <class Scalar, int Dof = 3>
 struct SceneModel {
   std::vector<BodyDynamics<Scalar, Dof>> bodies;
   std::vector<Constraint<Scalar, Dof>> constraints;  // that the problems hold
   std::vector<Island> islands;
-  std::vector<Omission> omitted;
+  // Contacts that were left out: they part; their force is one of others.
+  std::vector<int> parting, redundant;
   // Contacts that approach faster than `rest`; at the level of forces they count as at rest.
   std::vector<int> colliding;
 
@@ -86,10 +68,16 @@ struct SceneModel {
 template <class Kind, class Scalar>
 using ModelIn = SceneModel<Scalar, Kind::kDof>;
 
+// minimal  false: islands together, redundant contacts kept, friction rows for every contact, and, with a step,
+//          contacts that part. (At the instant itself those have no row: f = 0 is no condition of (15).)
+// step     h, s; 0: the instant itself
+// before   h', of the step before, s; velocities are those of its middle; 0: of this instant
 template <class Kind, class Scalar>
 ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>& scene,
                                const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
-                               const AssembleOptions<Scalar>& options = {});
+                               Level level = Level::kForces, bool minimal = true,
+                               const std::type_identity_t<Scalar>& step = Scalar(0),
+                               const std::type_identity_t<Scalar>& before = Scalar(0));
 
 // Accelerations of all bodies (x, y, spin; x, y, z, three spins) under gravity, applied forces and f, a vector
 // of forces per island.
@@ -104,11 +92,11 @@ typename ContactProblem<Scalar>::Vector ExtendForces(
     const SceneModel<Scalar, Dof>& minimal, const std::vector<typename ContactProblem<Scalar>::Vector>& f,
     const SceneModel<Scalar, Dof>& full);
 
-// Line by line what was modelled, what was left out, and why that is exact.
+// Line by line what was modelled at this level, what was left out, and why that is exact.
 template <class Kind, class Scalar>
 std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
                                  const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
-                                 const ModelIn<Kind, Scalar>& model, const AssembleOptions<Scalar>& options);
+                                 const ModelIn<Kind, Scalar>& model, Level level);
 
 }  // namespace stiction
 

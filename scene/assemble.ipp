@@ -133,8 +133,9 @@ class Assembler {
   using Model = ModelIn<Kind, Scalar>;
   static constexpr int kDof = Kind::kDof;
 
-  Assembler(const SceneIn<Kind, Scalar>& scene, const AssembleOptions<Scalar>& options)
-      : scene_(scene), options_(options) {
+  Assembler(const SceneIn<Kind, Scalar>& scene, Level level, bool minimal, const Scalar& step,
+            const Scalar& before)
+      : scene_(scene), level_(level), minimal_(minimal), step_(step), before_(before) {
     model_.bodies = DynamicsOf(scene);
     for (const auto& body : model_.bodies) free_.push_back(body.FreeAcceleration());
   }
@@ -145,8 +146,8 @@ class Assembler {
       model_.constraints.push_back(std::move(constraint));
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) AddContact(contacts[i], static_cast<int>(i));
-    if (options_.minimal) DropRedundant();
-    model_.islands = FindIslands(model_.bodies, model_.constraints, !options_.minimal);
+    if (minimal_) DropRedundant();
+    model_.islands = FindIslands(model_.bodies, model_.constraints, !minimal_);
     return std::move(model_);
   }
 
@@ -155,36 +156,32 @@ class Assembler {
     ConstraintIn<Kind, Scalar> constraint = ContactConstraint(scene_, contact);
     constraint.source = number;
     const Scalar speed = Speed(constraint, 0);
-    const bool stays = Sign(options_.step) != 0 && (!options_.minimal || IsIn(options_.closing, number));
-    if (options_.level == Level::kForces && speed > scene_.rest && !stays) {
-      model_.omitted.push_back({number, OmissionReason::kSeparating});
+    const bool stays = Sign(step_) != 0 && (!minimal_ || contact.closing);
+    if (level_ == Level::kForces && speed > scene_.rest && !stays) {
+      model_.parting.push_back(number);
       return;
     }
     if (speed < -scene_.rest) model_.colliding.push_back(number);
-    SetLaw(constraint);
+    SetLaw(contact.held, constraint);
     SetB(constraint);
     model_.constraints.push_back(std::move(constraint));
   }
 
   // At this instant, of what is kept: zero where a row is held at zero.
   Scalar Speed(const ConstraintIn<Kind, Scalar>& constraint, int row) const {
-    return Scalar(Velocity(constraint, row, model_.bodies) - options_.before / 2 * constraint.rows[row].bias);
+    return Scalar(Velocity(constraint, row, model_.bodies) - before_ / 2 * constraint.rows[row].bias);
   }
 
-  static bool IsIn(const std::vector<bool>& contacts, int number) {
-    return number < static_cast<int>(contacts.size()) && contacts[number];
-  }
-
-  void SetLaw(ConstraintIn<Kind, Scalar>& constraint) {
+  void SetLaw(bool held, ConstraintIn<Kind, Scalar>& constraint) {
     Contact<Scalar>& law = constraint.law;
-    const bool smooth = options_.level == Level::kPositions || (options_.minimal && Sign(law.mu) == 0);
+    const bool smooth = level_ == Level::kPositions || (minimal_ && Sign(law.mu) == 0);
     if (smooth) {
       law = {ContactKind::kFrictionless, Scalar(0), {Scalar(0), Scalar(0)}};
       constraint.rows.resize(1);
       return;
     }
     law.kind = ContactKind::kStatic;
-    if (options_.level != Level::kForces || Sign(law.mu) == 0 || IsIn(options_.held, constraint.source)) return;
+    if (level_ != Level::kForces || Sign(law.mu) == 0 || held) return;
     const Scalar speed = Speed(constraint, 1);
     if constexpr (Kind::kDimension == 2) {
       if (Abs<Scalar>(speed) <= scene_.rest) return;
@@ -205,22 +202,21 @@ class Assembler {
     RowIn<Kind, Scalar>& row = constraint.rows[i];
     const bool one_sided = constraint.law.kind != ContactKind::kBilateral && i == 0;
     const Scalar gap = one_sided ? std::max<Scalar>(row.error, Scalar(0)) : Scalar(0);
-    const bool step = Sign(options_.step) != 0;
+    const bool step = Sign(step_) != 0;
     row.b = Scalar(0);
-    switch (options_.level) {
+    switch (level_) {
       case Level::kForces:
         for (int side = 0; side < 2; ++side) row.b += row.J[side].dot(free_[constraint.bodies[side]]);
         if (!step) {
           row.b += row.bias;
         } else {
           const Scalar velocity = Velocity(constraint, i, model_.bodies);
-          row.b += (velocity + options_.step * row.bias / 2 + gap / options_.step) /
-                   ((options_.step + options_.before) / 2);
+          row.b += (velocity + step_ * row.bias / 2 + gap / step_) / ((step_ + before_) / 2);
         }
         break;
       case Level::kImpulses:
         row.b = Speed(constraint, i);
-        if (step) row.b += gap / options_.step;
+        if (step) row.b += gap / step_;
         break;
       case Level::kPositions:
         row.b = row.error;
@@ -234,7 +230,7 @@ class Assembler {
     std::vector<ConstraintIn<Kind, Scalar>> kept;
     for (std::size_t i = 0, dropped = 0; i < model_.constraints.size(); ++i) {
       if (dropped < redundant.size() && redundant[dropped] == static_cast<int>(i)) {
-        model_.omitted.push_back({model_.constraints[i].source, OmissionReason::kRedundant});
+        model_.redundant.push_back(model_.constraints[i].source);
         ++dropped;
       } else {
         kept.push_back(std::move(model_.constraints[i]));
@@ -244,16 +240,19 @@ class Assembler {
   }
 
   const SceneIn<Kind, Scalar>& scene_;
-  const AssembleOptions<Scalar>& options_;
+  const Level level_;
+  const bool minimal_;
+  const Scalar step_, before_;
   Model model_;
   std::vector<Eigen::Matrix<Scalar, kDof, 1>> free_;
 };
 
 template <class Kind, class Scalar>
 ModelIn<Kind, Scalar> Assemble(const SceneIn<Kind, Scalar>& scene,
-                               const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
-                               const AssembleOptions<Scalar>& options) {
-  return Assembler<Kind, Scalar>(scene, options).Run(contacts);
+                               const std::vector<TouchPointIn<Kind, Scalar>>& contacts, Level level,
+                               bool minimal, const std::type_identity_t<Scalar>& step,
+                               const std::type_identity_t<Scalar>& before) {
+  return Assembler<Kind, Scalar>(scene, level, minimal, step, before).Run(contacts);
 }
 
 // ---- What follows from forces ----------------------------------------------------------------

@@ -58,6 +58,9 @@ struct TouchPointIn {
   Scalar gap = Scalar(0);  // m, negative for overlap
   Scalar mu = Scalar(0);
   Scalar radius_a = Scalar(0), radius_b = Scalar(0);
+  // In a step, at the level of forces (assemble.h): counts as static whatever its tangential speed; stays
+  // although it parts.
+  bool held = false, closing = false;
 };
 template <class Scalar>
 using TouchPoint = TouchPointIn<Plane, Scalar>;

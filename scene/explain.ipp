@@ -58,24 +58,22 @@ std::string ConstraintName(const SceneIn<Kind, Scalar>& scene,
                      scene.bodies[joint.b].name);
 }
 
-inline std::string ReasonFor(OmissionReason reason) {
-  return reason == OmissionReason::kSeparating
-             ? "left out: it parts, so it has no force at this instant, whatever its acceleration"
-             : "left out: on a flat face between others of the same mu, any force of it is one of theirs and "
-               "its acceleration a mean of theirs, so that no acceleration of any solution changes";
-}
-
 template <class Kind, class Scalar>
 std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
                                  const std::vector<TouchPointIn<Kind, Scalar>>& contacts,
-                                 const ModelIn<Kind, Scalar>& model, const AssembleOptions<Scalar>& options) {
+                                 const ModelIn<Kind, Scalar>& model, Level level) {
   std::vector<std::string> lines;
-  for (const auto& omission : model.omitted)
-    lines.push_back(ContactName(scene, contacts, omission.contact) + ": " + ReasonFor(omission.reason));
-  for (const int i : model.colliding) {
+  for (const int i : model.parting)
+    lines.push_back(ContactName(scene, contacts, i) +
+                    ": left out: it parts, so it has no force at this instant, whatever its acceleration");
+  for (const int i : model.redundant)
     lines.push_back(
-        ContactName(scene, contacts, i) + ": approaches" +
-        (options.level == Level::kForces ? "; taken as at rest, though a collision comes first" : ""));
+        ContactName(scene, contacts, i) +
+        ": left out: on a flat face between others of the same mu, any force of it is one of theirs "
+        "and its acceleration a mean of theirs, so that no acceleration of any solution changes");
+  for (const int i : model.colliding) {
+    lines.push_back(ContactName(scene, contacts, i) + ": approaches" +
+                    (level == Level::kForces ? "; taken as at rest, though a collision comes first" : ""));
   }
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     const auto& island = model.islands[i];
@@ -90,9 +88,7 @@ std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
       std::string line = "  " + ConstraintName<Kind, Scalar>(scene, contacts, constraint) + ": " +
                          LawOf(constraint.law, Kind::kDimension);
       if (constraint.law.kind == ContactKind::kFrictionless)
-        line += options.level == Level::kPositions
-                    ? ""
-                    : ": mu = 0 allows no friction force, and asks nothing of aF";
+        line += level == Level::kPositions ? "" : ": mu = 0 allows no friction force, and asks nothing of aF";
       if (constraint.law.kind == ContactKind::kBilateral)
         line += "; methods eliminate it, which no step of theirs notices (solver/problem/reduction.h)";
       lines.push_back(std::move(line));

@@ -74,18 +74,18 @@ SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, st
 }  // namespace
 
 template <class Kind>
-SimulationIn<Kind>::SimulationIn(SceneType scene, const SimulationOptions& options,
+SimulationIn<Kind>::SimulationIn(SceneType scene, double step, double rest,
                                  std::function<void(const FrameProblem&)> observe)
-    : scene_(std::move(scene)), options_(options), observe_(std::move(observe)), solvers_() {
+    : scene_(std::move(scene)), frame_step_(step), observe_(std::move(observe)), solvers_() {
   const double gravity = scene_.gravity.norm();
   size_ = SizeOf(scene_);
-  scene_.rest = options_.rest > 0 ? options_.rest : gravity > 0 ? gravity * options_.step : kSlow * size_;
+  scene_.rest = rest > 0 ? rest : gravity > 0 ? gravity * step : kSlow * size_;
 }
 
 template <class Kind>
 void SimulationIn<Kind>::Step() {
   exhausted_ = false;
-  StepBy(options_.step, options_.halvings);
+  StepBy(frame_step_, halvings);
   ++statistics_.frames;
   statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
   statistics_.deep += exhausted_;
@@ -93,7 +93,7 @@ void SimulationIn<Kind>::Step() {
 
 // At once or, where that ends too deep, from the same state in two halves.
 template <class Kind>
-void SimulationIn<Kind>::StepBy(double h, int halvings) {
+void SimulationIn<Kind>::StepBy(double h, int halvings_left) {
   if (!is_near_known_) FindNear();
   const double allowed = std::max(scene_.gap > 0 ? scene_.gap : kDeep * size_, Overlap());
   std::vector<decltype(MotionOf(scene_.bodies[0]))> before;
@@ -104,7 +104,7 @@ void SimulationIn<Kind>::StepBy(double h, int halvings) {
   TakeStep();
   FindNear();
   if (exhausted_ || Overlap() <= allowed) return;
-  exhausted_ = halvings == 0;
+  exhausted_ = halvings_left == 0;
   if (exhausted_) return;
   ++statistics_.halved;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -113,7 +113,7 @@ void SimulationIn<Kind>::StepBy(double h, int halvings) {
   }
   before_ = step_before;
   is_near_known_ = false;
-  for (int half = 0; half < 2; ++half) StepBy(h / 2, halvings - 1);
+  for (int half = 0; half < 2; ++half) StepBy(h / 2, halvings_left - 1);
 }
 
 template <class Kind>
@@ -141,23 +141,15 @@ double SimulationIn<Kind>::Overlap() const {
 }
 
 template <class Kind>
-auto SimulationIn<Kind>::AssembleAt(Level level, const std::vector<bool>& held,
-                                    const std::vector<bool>& closing) const -> Model {
-  AssembleOptions<double> options;
-  options.level = level;
-  options.step = step_;
-  options.before = before_;
-  options.minimal = options_.minimal;
-  options.held = held;
-  options.closing = closing;
-  return Assemble(scene_, contacts_, options);
+auto SimulationIn<Kind>::AssembleAt(Level level) const -> Model {
+  return Assemble(scene_, contacts_, level, minimal, step_, before_);
 }
 
 template <class Kind>
 void SimulationIn<Kind>::FindNear() {
-  double fastest = scene_.gravity.norm() * options_.step;
+  double fastest = scene_.gravity.norm() * frame_step_;
   for (const auto& body : scene_.bodies) fastest = std::max(fastest, FastestPoint(body));
-  near_ = FindContacts(scene_, 2 * options_.step * fastest);
+  near_ = FindContacts(scene_, 2 * frame_step_ * fastest);
   is_near_known_ = true;
 }
 
@@ -238,7 +230,7 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
 template <class Kind>
 Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std::size_t island) const {
   const bool is_small = model.islands[island].rows < FactorRows(level, Kind::kDimension);
-  if (!options_.warm || level != Level::kForces || is_small || remembered_.empty()) return {};
+  if (!warm || level != Level::kForces || is_small || remembered_.empty()) return {};
   std::vector<Remembered> now;
   int row = 0;
   for (const int k : model.islands[island].constraints) {
@@ -363,21 +355,21 @@ void SimulationIn<Kind>::ApplyImpulses() {
 
 template <class Kind>
 auto SimulationIn<Kind>::Accelerations() -> Changes {
-  std::vector<bool> held(contacts_.size(), false), closing(contacts_.size(), false);
+  for (Touch& contact : contacts_) contact.held = contact.closing = false;
   for (int round = 0;; ++round) {
-    Model model = AssembleAt(Level::kForces, held, closing);
-    const bool all_held = std::find(held.begin(), held.end(), false) == held.end();
+    Model model = AssembleAt(Level::kForces);
+    const bool all_held = std::ranges::all_of(contacts_, &Touch::held);
     Forces f;
     if (!Solve(model, Level::kForces, f)) {
       if (all_held) Fail(model, Level::kForces, failed_);
       ++statistics_.impulsive;
-      held.assign(contacts_.size(), true);
+      for (Touch& contact : contacts_) contact.held = true;
       continue;
     }
     Changes accelerations = BodyAccelerations(model, f);
-    const int reversing = all_held ? 0 : HoldReversing(model, accelerations, held);
+    const int reversing = all_held ? 0 : HoldReversing(model, accelerations);
     statistics_.stopped += reversing;
-    const int back = KeepClosing(model, accelerations, closing);
+    const int back = KeepClosing(model, accelerations);
     if ((reversing == 0 && back == 0) || round >= kHoldRounds) {
       KeepForces(std::move(model), f, accelerations);
       return accelerations;
@@ -397,8 +389,7 @@ double SimulationIn<Kind>::SpeedAfter(const Model& model, const ConstraintIn<Kin
 
 // Marks the sliding contacts whose tangential velocity would turn round within the step.
 template <class Kind>
-int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& accelerations,
-                                      std::vector<bool>& held) const {
+int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& accelerations) {
   int count = 0;
   for (const auto& constraint : model.constraints) {
     if (constraint.law.kind != ContactKind::kSliding) continue;
@@ -406,7 +397,7 @@ int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& acceler
     for (int row = 1; row < Kind::kDimension; ++row)
       along += SpeedAfter(model, constraint, row, accelerations) * constraint.law.slip[row - 1];
     if (along >= 0) continue;
-    held[constraint.source] = true;
+    contacts_[constraint.source].held = true;
     ++count;
   }
   return count;
@@ -414,14 +405,11 @@ int SimulationIn<Kind>::HoldReversing(const Model& model, const Changes& acceler
 
 // Marks the contacts left out because they part that would be back, and overlap, at the end of the step.
 template <class Kind>
-int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerations,
-                                    std::vector<bool>& closing) const {
+int SimulationIn<Kind>::KeepClosing(const Model& model, const Changes& accelerations) {
   int count = 0;
-  for (const Omission& omission : model.omitted) {
-    if (omission.reason != OmissionReason::kSeparating) continue;
-    if (!Closes(contacts_[omission.contact], accelerations)) continue;
-    closing[omission.contact] = true;
-    ++count;
+  for (const int i : model.parting) {
+    contacts_[i].closing = Closes(contacts_[i], accelerations);
+    count += contacts_[i].closing;
   }
   return count;
 }

@@ -31,7 +31,7 @@
 // Overlap. Contacts are predicted from the features that are near at the start of a step, to first order: a
 // body that turns fast, an edge that gives way to a face, a corner behind another leave overlap that speeds and
 // steps set. A step that ends deeper than the gap (a thousandth of the scene's size in one without), and deeper
-// than it began, is taken back and done in two halves, and they likewise, SimulationOptions::halvings times one
+// than it began, is taken back and done in two halves, and they likewise, `halvings` times one
 // within the other. So no frame ends deeper than both, unless it is counted in `deep`: it ran out of halvings,
 // and what was left of it was done without. Forces and contacts are those of the last part. Observers see the
 // problems of steps that were taken back too, and all counters but `frames` and `contacts` count them.
@@ -70,16 +70,6 @@ inline constexpr double kDrift = 1e-9;  // of the size of the scene, or the sine
 // with all that has a length in its unit, moves alike but for rounding.
 template <class Kind>
 double SizeOf(const SceneIn<Kind, double>& scene);
-
-struct SimulationOptions {
-  double step = 1.0 / 60;  // s
-  // Speeds up to which a contact counts as at rest, m/s; 0: what gravity makes in one step, without gravity a
-  // thousandth of the scene's size a second.
-  double rest = 0;
-  bool minimal = true;
-  bool warm = true;   // whether a step's forces start from those of the step before
-  int halvings = 10;  // of a step, one within the other; 0: none
-};
 
 // Counters since the start.
 struct SimulationStatistics {
@@ -169,8 +159,15 @@ class SimulationIn {
   using Touch = TouchPointIn<Kind, double>;
   using Applied = AppliedForceIn<Kind>;
 
-  // Requires a finite scene. `observe` sees every problem before it is solved.
-  explicit SimulationIn(SceneType scene, const SimulationOptions& options = {},
+  // Of the steps that follow.
+  bool minimal = true;  // assemble.h
+  bool warm = true;     // whether a step's forces start from those of the step before
+  int halvings = 10;    // of a step, one within the other; 0: none
+
+  // Requires a finite scene. Steps are of this length, s. Speeds up to `rest`, m/s, count as at rest, whatever
+  // the scene says; 0: what gravity makes in one step, without gravity a thousandth of the scene's size a
+  // second. `observe` sees every problem before it is solved.
+  explicit SimulationIn(SceneType scene, double step = 1.0 / 60, double rest = 0,
                         std::function<void(const FrameProblem&)> observe = {});
 
   // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
@@ -178,7 +175,7 @@ class SimulationIn {
   void Step();
 
   const SceneType& scene() const { return scene_; }
-  double time() const { return static_cast<double>(statistics_.frames) * options_.step; }
+  double time() const { return static_cast<double>(statistics_.frames) * frame_step_; }
   const SimulationStatistics& statistics() const { return statistics_; }
   // Of the last step.
   const std::vector<Applied>& forces() const { return forces_; }
@@ -206,8 +203,7 @@ class SimulationIn {
   void TakeStep();
   double Kick() const { return (step_ + before_) / 2; }  // from the middle of one step to that of the next
   double Overlap() const;
-  Model AssembleAt(Level level, const std::vector<bool>& held = {},
-                   const std::vector<bool>& closing = {}) const;
+  Model AssembleAt(Level level) const;
   bool Solve(const Model& model, Level level, Forces& f);
   Eigen::VectorXd StartOf(const Model& model, Level level, std::size_t island) const;
   Remembered Known(const ConstraintIn<Kind, double>& constraint, int row) const;
@@ -223,8 +219,8 @@ class SimulationIn {
   void CorrectPositions();
   void ApplyImpulses();
   Changes Accelerations();
-  int HoldReversing(const Model& model, const Changes& accelerations, std::vector<bool>& held) const;
-  int KeepClosing(const Model& model, const Changes& accelerations, std::vector<bool>& closing) const;
+  int HoldReversing(const Model& model, const Changes& accelerations);
+  int KeepClosing(const Model& model, const Changes& accelerations);
   void KeepForces(Model model, const Forces& f, const Changes& accelerations);
   double SpeedAfter(const Model& model, const ConstraintIn<Kind, double>& constraint, int row,
                     const Changes& accelerations) const;
@@ -233,12 +229,12 @@ class SimulationIn {
   void Move(const Changes& accelerations);
 
   SceneType scene_;
-  SimulationOptions options_;
+  double frame_step_;
   std::function<void(const FrameProblem&)> observe_;
   tbb::enumerable_thread_specific<SceneSolver> solvers_;
   SimulationStatistics statistics_;
   double size_ = 1;          // SizeOf the scene
-  double step_ = 0;          // that is being taken: options_.step or a part of it
+  double step_ = 0;          // that is being taken: that of the frame or a part of it
   double before_ = 0;        // the step before, of whose middle the velocities are; 0: of the start itself
   bool exhausted_ = false;   // no halvings are left in this frame
   std::vector<Touch> near_;  // all that may touch within a step from the present state

@@ -188,16 +188,11 @@ EngineWorld WorldOf(const SceneIn<Kind, double>& scene) {
 template <class Kind>
 class StictionEngine : public Engine {
  public:
-  explicit StictionEngine(const SceneIn<Kind, double>& scene) : simulation_(scene, Options()) {}
+  explicit StictionEngine(const SceneIn<Kind, double>& scene) : simulation_(scene, 1.0 / kFramesASecond) {}
   void Step() override { simulation_.Step(); }
   Pose PoseOf(int body) const override { return PoseOfBody(simulation_.scene().bodies[body]); }
 
  private:
-  static SimulationOptions Options() {
-    SimulationOptions options;
-    options.step = 1.0 / kFramesASecond;
-    return options;
-  }
   SimulationIn<Kind> simulation_;
 };
 

@@ -79,9 +79,7 @@ template <class Kind>
 Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction, std::size_t count) {
   Problems met;
   std::size_t rows = 1;
-  SimulationOptions options;
-  options.step = ToDouble(file.step);
-  SimulationIn<Kind> simulation(Round(file.scene), options, [&](const FrameProblem& of) {
+  SimulationIn<Kind> simulation(Round(file.scene), ToDouble(file.step), 0, [&](const FrameProblem& of) {
     const std::size_t size = of.problem.b.size();
     if (of.level != Level::kForces || size < rows || !IsAllOf(of.problem, KindOf(friction))) return;
     if (size > rows) met.clear();

@@ -56,10 +56,10 @@ void RequireFewRows(const Json& problem) {
   if (rows > kMostRowsOfCertificate)
     throw Rejected{"problem.contacts", fmt::format("contacts of {} rows", rows),
                    fmt::format("at most {}", kMostRowsOfCertificate)};
-  const std::int64_t most = BudgetOf::Now().MostCells(), cells = static_cast<std::int64_t>(rows * rows);
+  const std::int64_t most = Budget::MostCells(), cells = static_cast<std::int64_t>(rows * rows);
   if (cells > most)
     RefuseCost(fmt::format("{} rows, a matrix of {} entries", rows, cells),
-               fmt::format(" of {}, by its length of {}", most, BudgetOf::Now().length));
+               fmt::format(" of {}, by its length of {}", most, Budget::Length()));
 }
 
 // Digits of numerator and denominator of what a text stands for, its exponent written out; 0 if it is no
@@ -100,10 +100,10 @@ std::int64_t AllDigits(const Json& json) {
 // Before any is read.
 void RequireFewDigits(const Json& certificate) {
   const std::int64_t digits = AllDigits(certificate["problem"]) + AllDigits(certificate["witness"]);
-  const std::int64_t most = BudgetOf::Now().MostDigits();
+  const std::int64_t most = Budget::MostDigits();
   if (digits > most)
     RefuseCost(fmt::format("numbers of {} digits", digits),
-               fmt::format(" of {} in all, by its length of {}", most, BudgetOf::Now().length));
+               fmt::format(" of {} in all, by its length of {}", most, Budget::Length()));
 }
 
 std::string ReasonOf(const Rejected& rejected) {
@@ -116,7 +116,7 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
   CheckReport report;
   try {
     WitnessCheck& check = ReadClaim(certificate, report);
-    const BudgetOf budget({&certificate["problem"], &certificate["witness"]});
+    const Budget budget({&certificate["problem"], &certificate["witness"]});
     RequireFewDigits(certificate);
     RequireFewRows(certificate["problem"]);
     const ExactProblem problem = ProblemFromJson(certificate["problem"], source, "problem", true);

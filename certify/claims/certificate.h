@@ -38,10 +38,6 @@ Json ExistsCertificate(const ExactProblem& problem);
 // `cycle`, for those of the policies that end in one; in space, of frictionless and static contacts, for the
 // first that is proved to. A null value if none is.
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
-// `counterexample`: A is symmetric and definite, those of the policies cycle, and here is the solution that
-// they miss; a null value if one of these is not so, or if no solution was found.
-Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
-                               const Limits& limits);
 
 // Steps as certificates and `replay --json` write them.
 Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names);

@@ -17,18 +17,13 @@
 #include "certify/exact/enumerate.h"
 #include "corpus/json.h"
 #include "corpus/record/factors.h"
-#include "solver/problem/law.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
 
-struct ClaimOptions {
-  std::vector<Policy> policies = {Policy{}};  // of which runs are claimed
-  Limits limits;
-  EnumerationOptions enumeration;
-  FrictionLaw law = FrictionLaw::kCoulomb;  // in space, of `existence`
-  const ExactFactors* factors = nullptr;    // of the problem, where it has some: a witness of their own
-};
+// Of the request limits are read, and by `existence` law; of what is claimed of runs all policies.
+using ClaimMaker = ClaimAnswer(const ExactProblem&, const Request&, const std::vector<Policy>& policies,
+                               const EnumerationWatch&);
 
 inline void RequireAny(const ExactProblem&, const std::string&) {}
 
@@ -38,11 +33,17 @@ struct Claim {
 
   std::string_view meaning = {};  // in words
   // Whether it is so; null where the claim is not asked for by this name.
-  ClaimAnswer (*certify)(const ExactProblem&, const ClaimOptions&) = nullptr;
+  ClaimMaker* certify = nullptr;
   // InputError, by its place in `source`, for a problem of which it is not made.
   void (*require)(const ExactProblem&, const std::string& source) = RequireAny;
   std::string_view proves = {};  // in words, of solutions; empty for what speaks of something else
   bool negative = false;         // whether it says that another claim is false
+  // The certificate whose witness are factors of the problem; null where they show nothing.
+  Json (*by_factors)(const ExactProblem&, const ExactFactors&) = nullptr;
+
+  // By factors, of a problem that has some and where they show it, otherwise by `certify`, which is not null.
+  ClaimAnswer Decide(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,
+                     const ExactFactors* factors, const EnumerationWatch& watch = {}) const;
 };
 
 // The claims of a file. Files are told in the order of their places.
@@ -51,9 +52,10 @@ struct ClaimRows {
   std::span<const Claim> claims;
 };
 
-// Makers that take the problem alone, and decide it.
+// Of the problem alone; `Make` as for ByCertificate.
 template <Json (*Make)(const ExactProblem&)>
-ClaimAnswer Alone(const ExactProblem& problem, const ClaimOptions&) {
+ClaimAnswer Alone(const ExactProblem& problem, const Request&, const std::vector<Policy>&,
+                  const EnumerationWatch&) {
   return ByCertificate(Make(problem));
 }
 

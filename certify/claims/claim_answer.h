@@ -40,6 +40,7 @@ struct ClaimAnswer {
   Json certificate;                      // null where there is none
   std::string reason;                    // in words; empty where the certificate says it all
   std::optional<PolicyCounts> policies;  // of a claim of runs
+  std::string_view method = "none";      // of existence, what decided it: complete, fast, lemke, enumerate
 };
 
 // Of a maker that returns a certificate of the claim or of its negation, or, where it has none, null or a text

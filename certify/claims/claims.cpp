@@ -21,15 +21,23 @@ std::vector<Claim> AllClaims() {
   return all;
 }
 
+ClaimAnswer Claim::Decide(const ExactProblem& problem, const Request& request,
+                          const std::vector<Policy>& policies, const ExactFactors* factors,
+                          const EnumerationWatch& watch) const {
+  Json found = factors != nullptr && by_factors != nullptr ? by_factors(problem, *factors) : Json();
+  return found.is_null() ? certify(problem, request, policies, watch) : ByCertificate(std::move(found));
+}
+
 Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view name,
-                  const ClaimOptions& options) {
+                  const Request& request, const std::vector<Policy>& policies, const ExactFactors* factors,
+                  const EnumerationWatch& watch) {
   std::vector<std::string_view> names;
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;
     names.push_back(claim.name);
     if (claim.name != name) continue;
     claim.require(problem, source);
-    return ToJson(claim.certify(problem, options), name);
+    return ToJson(claim.Decide(problem, request, policies, factors, watch), name);
   }
   throw InputError(source, "claim", std::string(name), fmt::format("one of {}", fmt::join(names, ", ")));
 }

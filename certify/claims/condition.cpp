@@ -204,22 +204,19 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
 namespace {
 
 // An unsafe problem shows that its condition number is not enough.
-ClaimAnswer ByCondition(const ExactProblem& problem, const ClaimOptions&) {
-  if (auto found = ConditionCertificate(problem)) return ByCertificate(std::move(*found));
+Json ByCondition(const ExactProblem& problem) {
+  if (auto found = ConditionCertificate(problem)) return std::move(*found);
   Json safety = SafetyCertificateIfDecided(problem);
-  if (safety.is_object() && safety["claim"] == "unsafe") return ByCertificate(std::move(safety));
-  return ByCertificate(nullptr, "no scaling was found under which the condition number of A is small enough");
-}
-void RequireConditionIsSaid(const ExactProblem& problem, const std::string& source) {
-  RequireHandled(problem, source, "safety");
+  if (safety.is_object() && safety["claim"] == "unsafe") return safety;
+  return "no scaling was found under which the condition number of A is small enough";
 }
 
 }  // namespace
 
 ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,
-                                            "its condition number alone shows that it is", ByCondition,
-                                            RequireConditionIsSaid}};
+                                            "its condition number alone shows that it is", Alone<ByCondition>,
+                                            RequireSafetyIsSaid}};
   return {60, kClaims};
 }
 

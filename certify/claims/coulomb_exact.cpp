@@ -347,8 +347,8 @@ Json CheckCoulombExact(const ExactProblem& problem, const Json& witness) {
   const ExactVector given = Given(fixed, problem.rows());
   const BoxSystem<Rational> system(problem, layout, given, x);
   if (const auto leaving = FindLeaving(system.equations(), inverse, radius))
-    throw Rejected{ElementPath("witness.inverse", leaving->unknown),
-                   fmt::format("{:.3g} radii", ToDouble(leaving->distance / radius)),
+    throw Rejected{ElementPath("witness.inverse", leaving->first),
+                   fmt::format("{:.3g} radii", ToDouble(leaving->second / radius)),
                    "a distance below the radius, as Krawczyk's test asks for"};
   for (const Condition<Rational>& condition : system.positive())
     if (condition.q.Least(radius) <= 0)
@@ -642,11 +642,13 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
 }
 
 // Where no box is found, there may be no solution at all.
-ClaimAnswer OfCoulombExact(const ExactProblem& problem, const ClaimOptions& o) {
+ClaimAnswer OfCoulombExact(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
+                           const EnumerationWatch& watch) {
   try {
-    return ByCertificate(CertifyBox(problem, o.limits));
+    return ByCertificate(CertifyBox(problem, request.limits));
   } catch (const NothingShown& nothing) {
-    Json found = DecideExistence(problem, o.limits, o.enumeration, FrictionLaw::kCoulomb).certificate;
+    Json found =
+        DecideExistence(problem, {.law = FrictionLaw::kCoulomb, .limits = request.limits}, watch).certificate;
     const bool none = found.is_object() && found["claim"] == "no-solution";
     return ByCertificate(none ? std::move(found) : Json(), nothing.why);
   }

@@ -74,83 +74,57 @@ Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& n
 }
 
 Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names) {
-  Json state = {{"sets", SetsToJson(run.state.sets, names)}, {"f", VectorToJson(run.state.f)}};
-  if (run.policy.resume == Resume::kRound && run.state.last_driven_contact >= 0) {
-    state["contact"] = run.state.last_driven_contact + 1;
+  Json state = {{"sets", SetsToJson(run.sets, names)}, {"f", VectorToJson(run.f)}};
+  if (run.policy.resume == Resume::kRound && run.last_driven_contact >= 0) {
+    state["contact"] = run.last_driven_contact + 1;
   }
   return state;
 }
 
 namespace {
 
-Json LoopToJson(const Policy& policy, const LoopInSpace& loop) {
+// Of a ray without a period.
+Json RunToJson(const Policy& policy, const RunInSpace& run) {
+  if (run.period == 0) return {{"policy", PolicyName(policy)}, {"bits", run.bits}, {"word", run.word}};
   Json witness = {{"policy", PolicyName(policy)},
-                  {"kind", loop.punctured ? "punctured"
-                           : loop.IsBox() ? "box"
-                                          : "states"},
-                  {"bits", loop.bits},
-                  {"start", loop.start},
-                  {"period", loop.period},
-                  {"word", loop.word}};
-  if (loop.IsBox()) {
-    witness["charts"] = loop.charts;
-    witness["centre"] = VectorToJson(loop.centre);
-    witness["radii"] = VectorToJson(loop.radii);
+                  {"kind", run.punctured ? "punctured"
+                           : run.IsBox() ? "box"
+                                         : "states"},
+                  {"bits", run.bits},
+                  {"start", run.start},
+                  {"period", run.period},
+                  {"word", run.word}};
+  if (run.IsBox()) {
+    witness["charts"] = run.charts;
+    witness["centre"] = VectorToJson(run.centre);
+    witness["radii"] = VectorToJson(run.radii);
   }
   return witness;
 }
 
-Json RayToJson(const Policy& policy, const RayInSpace& ray) {
-  return {{"policy", PolicyName(policy)}, {"bits", ray.bits}, {"word", ray.word}};
-}
+using ProveInSpace = std::optional<RunInSpace>(const ExactProblem&, const Policy&, const Limits&);
 
 // Of the first of the policies of which it is proved.
-template <class Prove, class ToJson>
 Json CertificateInSpace(const char* claim, const ExactProblem& problem, const std::vector<Policy>& policies,
-                        const Limits& limits, Prove prove, ToJson to_json) {
+                        const Limits& limits, ProveInSpace& prove) {
   for (const Policy& policy : policies) {
     if (!PublishedReadsInSpace(policy)) continue;
-    if (const auto proof = prove(problem, policy, limits))
-      return MakeCertificate(claim, problem, to_json(policy, *proof));
+    if (const auto run = prove(problem, policy, limits))
+      return MakeCertificate(claim, problem, RunToJson(policy, *run));
   }
   return nullptr;
 }
-
-}  // namespace
-
-namespace {
 
 Json CyclesCertificate(const ExactProblem& problem, const std::vector<PolicyEnds>& ends, const Limits& limits) {
   const Json runs = CyclesToJson(problem, ends, limits);
   return runs.empty() ? Json() : MakeCertificate("cycle", problem, {{"runs", runs}});
 }
 
-// A, definite, and a solution, with these runs.
-Json CounterexampleOf(const ExactProblem& problem, const LdltFactors& factors, const Json& solution,
-                      Json runs) {
-  Json witness = FactorsToJson(factors);
-  witness.update(solution["witness"]);
-  witness["runs"] = std::move(runs);
-  return MakeCertificate("counterexample", problem, std::move(witness));
-}
-
 }  // namespace
 
 Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
-  if (problem.dimension == 3)
-    return CertificateInSpace("cycle", problem, policies, limits, ProveLoopInSpace, LoopToJson);
+  if (problem.dimension == 3) return CertificateInSpace("cycle", problem, policies, limits, ProveLoopInSpace);
   return CyclesCertificate(problem, EndsUnder(policies, problem, limits), limits);
-}
-
-Json CounterexampleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
-                               const Limits& limits) {
-  if (!IsSymmetric(problem)) return nullptr;
-  const auto decision = DecideDefinite(problem.A);
-  const auto* factors = std::get_if<LdltFactors>(&decision);
-  const Json solution = DecideExistence(problem, limits).certificate;
-  if (factors == nullptr || solution.is_null()) return nullptr;  // a definite A has a solution
-  Json runs = CyclesToJson(problem, EndsUnder(policies, problem, limits), limits);
-  return runs.empty() ? Json() : CounterexampleOf(problem, *factors, solution, std::move(runs));
 }
 
 // ---- Checking ----------------------------------------------------------------------------------
@@ -216,7 +190,7 @@ void CompareState(const ExactRun& run, Json state, const std::string& path,
   for (const auto& [key, value] : expected.items()) keys.insert(key);
   RequireKeys(state, path, keys);
   const ExactVector f = ReadVector(state["f"], path + ".f", static_cast<int>(names.size()));
-  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.state.f[i], ElementPath(path + ".f", i));
+  for (int i = 0; i < f.size(); ++i) RequireEqual(f[i], run.f[i], ElementPath(path + ".f", i));
   keys.erase("f");
   for (const std::string& key : keys) RequireSame(state[key], expected[key], path + "." + key);
 }
@@ -324,7 +298,7 @@ void RequireFewStepsInSpace(const ExactProblem& problem, const Json& witness) {
       .LongestRow(problem);
 }
 
-LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
+RunInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   const bool punctured = witness.contains("kind") && witness["kind"] == "punctured";
   const bool box = punctured || (witness.contains("kind") && witness["kind"] == "box");
   std::set<std::string> keys = {"policy", "kind", "bits", "start", "period", "word"};
@@ -332,7 +306,7 @@ LoopInSpace ReadLoop(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", keys);
   if (!box && witness["kind"] != "states")
     throw Rejected{"witness.kind", Shown(witness["kind"]), "states, box or punctured"};
-  LoopInSpace loop;
+  RunInSpace loop;
   loop.punctured = punctured;
   loop.bits = ReadBits(witness);
   loop.start = ReadInteger(witness["start"], "witness.start", 0);
@@ -364,11 +338,11 @@ void RequireRunInSpace(const ExactProblem& problem) {
 Json CheckLoopInSpace(const ExactProblem& problem, const Json& witness, bool endless) {
   RequireRunInSpace(problem);
   RequireFewStepsInSpace(problem, witness);
-  LoopInSpace loop = ReadLoop(problem, witness);
+  RunInSpace loop = ReadLoop(problem, witness);
   loop.endless = endless;
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   if (const auto fault = FindLoopFault(problem, policy, loop))
-    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+    throw Rejected{"witness." + fault->path, fault->found, fault->expected};
   return {{"policies", 1},
           {"kind", witness["kind"]},
           {"coordinates", loop.charts.size()},
@@ -381,9 +355,9 @@ Json CheckRay(const ExactProblem& problem, const Json& witness) {
   RequireKeys(witness, "witness", {"policy", "bits", "word"});
   const Policy policy = ReadPolicy(witness["policy"], "witness.policy", 3);
   RequireFewStepsInSpace(problem, witness);
-  const RayInSpace ray = {ReadBits(witness), ReadWord(witness)};
+  const RunInSpace ray = {.bits = ReadBits(witness), .word = ReadWord(witness)};
   if (const auto fault = FindRayFault(problem, policy, ray))
-    throw Rejected{"witness." + fault->place, fault->found, fault->expected};
+    throw Rejected{"witness." + fault->path, fault->found, fault->expected};
   return {{"policies", 1}, {"steps", ray.word.size()}};
 }
 
@@ -425,7 +399,7 @@ void TellCertified(ClaimAnswer& answer) {
 Json OppositeInSpace(const ExactProblem& problem, const PolicyEnds& end, const Limits& limits) {
   if (end.outcome == Outcome::kCycle) return CycleCertificate(problem, end.policies, limits);
   if (end.outcome == Outcome::kRay)
-    return CertificateInSpace("ray", problem, end.policies, limits, ProveRayInSpace, RayToJson);
+    return CertificateInSpace("ray", problem, end.policies, limits, ProveRayInSpace);
   return nullptr;
 }
 
@@ -440,12 +414,12 @@ std::vector<Policy> PoliciesOf(const std::vector<PolicyEnds>& ends, const EndSta
 }
 
 // Of the first policy that a proof is found for; where the only one ends otherwise, of how it does.
-template <class Prove, class ToJson>
-ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const ClaimOptions& o,
-                          const ClaimedVerb& verb, const EndState& state, Prove prove, ToJson to_json) {
-  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const Limits& limits,
+                          const std::vector<Policy>& policies, const ClaimedVerb& verb, const EndState& state,
+                          ProveInSpace& prove) {
+  const std::vector<PolicyEnds> ends = EndsUnder(policies, problem, limits);
   ClaimAnswer answer = AnswerOfEnds(ends, verb, state);
-  answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), o.limits, prove, to_json);
+  answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), limits, prove);
   // A certificate in space is of one policy.
   if (answer.state == ClaimState::kProved && (answer.certificate.is_null() || answer.policies->asked > 1)) {
     answer.state = ClaimState::kNotDecided;
@@ -453,28 +427,30 @@ ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const 
     if (answer.certificate.is_null()) answer.reason += "; no certificate of it was found";
   }
   if (ends.size() == 1 && answer.state == ClaimState::kDisproved)
-    answer.certificate = OppositeInSpace(problem, ends.front(), o.limits);
+    answer.certificate = OppositeInSpace(problem, ends.front(), limits);
   TellCertified(answer);
   return answer;
 }
 
 constexpr ClaimedVerb kLoops = {"loops", "loop"};
 
-ClaimAnswer OfCycle(const ExactProblem& problem, const ClaimOptions& o) {
+ClaimAnswer OfCycle(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,
+                    const EnumerationWatch&) {
   const EndState loops = EndsIn(Outcome::kCycle);
   if (problem.dimension == 3)
-    return AnswerInSpace("cycle", problem, o, kLoops, loops, ProveLoopInSpace, LoopToJson);
-  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+    return AnswerInSpace("cycle", problem, request.limits, policies, kLoops, loops, ProveLoopInSpace);
+  const std::vector<PolicyEnds> ends = EndsUnder(policies, problem, request.limits);
   ClaimAnswer answer = AnswerOfEnds(ends, kLoops, loops);
-  answer.certificate = CyclesCertificate(problem, ends, o.limits);
+  answer.certificate = CyclesCertificate(problem, ends, request.limits);
   TellCertified(answer);
   return answer;
 }
 
-ClaimAnswer OfRay(const ExactProblem& problem, const ClaimOptions& o) {
-  return AnswerInSpace("ray", problem, o,
+ClaimAnswer OfRay(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,
+                  const EnumerationWatch&) {
+  return AnswerInSpace("ray", problem, request.limits, policies,
                        {"comes to a step that nothing limits", "come to a step that nothing limits"},
-                       EndsIn(Outcome::kRay), ProveRayInSpace, RayToJson);
+                       EndsIn(Outcome::kRay), ProveRayInSpace);
 }
 
 // Of a run that loops: whether no state recurs, whether one does, or neither is shown.
@@ -487,36 +463,41 @@ ClaimState RepeatsNoState(const ExactProblem& problem, const PolicyEnds& end, co
   return loop && !loop->IsBox() ? ClaimState::kDisproved : ClaimState::kNotDecided;
 }
 
-ClaimAnswer OfEndless(const ExactProblem& problem, const ClaimOptions& o) {
+ClaimAnswer OfEndless(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,
+                      const EnumerationWatch&) {
   std::map<std::string, ClaimState> known;  // by policy: each is looked at once
   const EndState repeats_none = [&](const PolicyEnds& end) {
     const std::string name = PolicyName(end.policies.front());
     const auto found = known.find(name);
     if (found != known.end()) return found->second;
-    return known[name] = RepeatsNoState(problem, end, o.limits);
+    return known[name] = RepeatsNoState(problem, end, request.limits);
   };
-  return AnswerInSpace("endless", problem, o,
+  return AnswerInSpace("endless", problem, request.limits, policies,
                        {"never ends and repeats no state", "never end and repeat no state"}, repeats_none,
-                       ProveEndlessInSpace, LoopToJson);
+                       ProveEndlessInSpace);
 }
 
 // Of A and of solutions first, then of the policies.
-ClaimAnswer OfCounterexample(const ExactProblem& problem, const ClaimOptions& o) {
+ClaimAnswer OfCounterexample(const ExactProblem& problem, const Request& request,
+                             const std::vector<Policy>& policies, const EnumerationWatch& watch) {
   if (!IsSymmetric(problem)) return ByCertificate(SymmetryCertificate(problem));
   const auto decision = DecideDefinite(problem.A);
   const auto* factors = std::get_if<LdltFactors>(&decision);
   if (factors == nullptr) return ByCertificate(DefiniteCertificate(problem));
-  const std::vector<PolicyEnds> ends = EndsUnder(o.policies, problem, o.limits);
+  const std::vector<PolicyEnds> ends = EndsUnder(policies, problem, request.limits);
   ClaimAnswer answer = AnswerOfEnds(ends, kLoops, EndsIn(Outcome::kCycle));
-  Json runs = CyclesToJson(problem, ends, o.limits);
+  Json runs = CyclesToJson(problem, ends, request.limits);
   if (runs.empty()) return answer;
-  const Existence existence = DecideExistence(problem, o.limits, o.enumeration);
+  const ClaimAnswer existence = DecideExistence(problem, request, watch);
   if (existence.certificate.is_object() && existence.certificate["claim"] == "no-solution")
     return ByCertificate(existence.certificate);  // as where contacts slide
   if (existence.certificate.is_null() || existence.certificate["claim"] != "solution-exists")
     return ByCertificate(nullptr, existence.reason.empty() ? "no solution was found"
                                                            : "no solution was found: " + existence.reason);
-  answer.certificate = CounterexampleOf(problem, *factors, existence.certificate, std::move(runs));
+  Json witness = FactorsToJson(*factors);
+  witness.update(existence.certificate["witness"]);
+  witness["runs"] = std::move(runs);
+  answer.certificate = MakeCertificate("counterexample", problem, std::move(witness));
   TellCertified(answer);
   return answer;
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "certify/claims/certificate.h"
@@ -19,10 +20,16 @@ namespace stiction {
 
 namespace {
 
+ClaimAnswer DecidedBy(std::string_view method, Json certificate) {
+  ClaimAnswer answer = ByCertificate(std::move(certificate));
+  answer.method = method;
+  return answer;
+}
+
 // Of an answer that is solved.
-Existence Solved(const ExactProblem& problem, const Answer<Rational>& answer) {
-  if (!answer.bound) return {SolutionCertificate(problem, answer.f), answer.method};
-  return {CoulombCertificate(problem, answer.f, *answer.bound), answer.method};
+ClaimAnswer DecidedBy(const ExactProblem& problem, const Answer<Rational>& answer) {
+  return DecidedBy(answer.method, answer.bound ? CoulombCertificate(problem, answer.f, *answer.bound)
+                                               : SolutionCertificate(problem, answer.f));
 }
 
 // "complete: out of drives".
@@ -35,31 +42,29 @@ std::string HowItEnded(const Answer<Rational>& answer) {
 
 std::string HowItEnded(const Enumeration& modes) {
   switch (modes.end) {
-    case EnumerationEnd::kCancelled:
+    case EnumerationEnd::kStopped:
       return "enumerate: stopped";
     case EnumerationEnd::kLimit:
       return "enumerate: out of linear programs";
     case EnumerationEnd::kOpen:
       return "enumerate: a contact mode that nothing refutes";
     case EnumerationEnd::kComplete:
-    case EnumerationEnd::kFirstSolution:
       break;
   }
   return "enumerate: nothing";
 }
 
-Existence Undecided(const std::vector<std::string>& ends) {
-  return {nullptr, "none", fmt::format("{}", fmt::join(ends, "; "))};
+ClaimAnswer Undecided(const std::vector<std::string>& ends) {
+  return ByCertificate(nullptr, fmt::format("{}", fmt::join(ends, "; ")));
 }
 
-Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
-                        FrictionLaw law) {
+ClaimAnswer DecideInSpace(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch) {
   std::vector<std::string> ends;
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
     try {
-      const Answer<Rational> answer = SolveBy(method, problem, {.law = law, .limits = limits});
-      if (answer.Solved() && answer.bound != Rational(0)) return Solved(problem, answer);
+      const Answer<Rational> answer = SolveBy(method, problem, {.law = request.law, .limits = request.limits});
+      if (answer.Solved() && answer.bound != Rational(0)) return DecidedBy(problem, answer);
       ends.push_back(answer.Solved()
                          ? std::string(method.name) + ": forces without a bound on the angle of slip"
                          : HowItEnded(answer));
@@ -67,36 +72,38 @@ Existence DecideInSpace(const ExactProblem& problem, const Limits& limits, const
       ends.push_back(std::string(method.name) + ": " + error.what());
     }
   }
-  const Enumeration modes = RefuteInSpace(problem, options);
-  if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};
+  const Enumeration modes = RefuteInSpace(problem, request, watch);
+  if (modes.ProvesNoSolution()) return DecidedBy("enumerate", NoSolutionCertificate(problem, modes));
   ends.push_back(HowItEnded(modes));
   return Undecided(ends);
 }
 
 }  // namespace
 
-Existence DecideExistence(const ExactProblem& problem, const Limits& limits, const EnumerationOptions& options,
-                          FrictionLaw law) {
-  if (problem.dimension == 3) return DecideInSpace(problem, limits, options, law);
+ClaimAnswer DecideExistence(const ExactProblem& problem, const Request& request,
+                            const EnumerationWatch& watch) {
+  if (problem.dimension == 3) return DecideInSpace(problem, request, watch);
+  const Limits& limits = request.limits;
   std::vector<std::string> ends;
   if (problem.rows() < kCellsFirst) {
     const ExactAnswer answer = RunCompleteFiltered(problem, limits);
-    if (answer.Solved()) return Solved(problem, answer);
+    if (answer.Solved()) return DecidedBy(problem, answer);
     ends.push_back(HowItEnded(answer));
   } else {
     const Answer<Rational> answer = Solve(problem, {.method = "fast", .limits = limits});
-    if (answer.Solved()) return Solved(problem, answer);
+    if (answer.Solved()) return DecidedBy(problem, answer);
     ends.push_back(HowItEnded(answer));
   }
   const Answer<Rational> answer =
       Solve(problem, {.method = "lemke", .limits = limits});  // complete driving is done
-  if (answer.Solved()) return Solved(problem, answer);
+  if (answer.Solved()) return DecidedBy(problem, answer);
   ends.push_back(HowItEnded(answer));
-  EnumerationOptions first = options;
-  first.first_solution_only = true;
-  const Enumeration modes = EnumerateModes(problem, first);
-  if (!modes.solutions.empty()) return {SolutionCertificate(problem, modes.solutions.front().f), "enumerate"};
-  if (modes.ProvesNoSolution()) return {NoSolutionCertificate(problem, modes), "enumerate"};
+  const Enumeration modes = EnumerateModes(problem, request, [&watch](const Enumeration& so_far) {
+    return UntilSolved(so_far) && (!watch || watch(so_far));
+  });
+  if (!modes.solutions.empty())
+    return DecidedBy("enumerate", SolutionCertificate(problem, modes.solutions.front().f));
+  if (modes.ProvesNoSolution()) return DecidedBy("enumerate", NoSolutionCertificate(problem, modes));
   ends.push_back(HowItEnded(modes));
   return Undecided(ends);
 }

@@ -14,27 +14,17 @@
 #ifndef STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
 #define STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-
+#include "certify/claims/claim_answer.h"
 #include "certify/exact/enumerate.h"
-#include "corpus/json.h"
-#include "solver/problem/answer.h"
 
 namespace stiction {
 
-struct Existence {
-  // `solution-exists`, of Coulomb's law in space `coulomb-solution`, or `no-solution`; null if undecided.
-  Json certificate;
-  std::string_view method;  // that decided: complete, fast, lemke, enumerate; or "none"
-  std::string reason = {};  // of what is undecided: how each method ended that was tried
-};
-
-// Any valid problem; the law is that of static contacts in space.
-Existence DecideExistence(const ExactProblem& problem, const Limits& limits,
-                          const EnumerationOptions& options = {}, FrictionLaw law = FrictionLaw::kBaraff);
+// Any valid problem. Of the request limits are read, and the law, which is that of static contacts in space.
+//
+// The certificate is `solution-exists`, of Coulomb's law in space `coulomb-solution`, or `no-solution`; null if
+// undecided, with how each method ended that was tried for a reason.
+ClaimAnswer DecideExistence(const ExactProblem& problem, const Request& request,
+                            const EnumerationWatch& watch = {});
 
 }  // namespace stiction
 

@@ -25,18 +25,16 @@ Json HypothesisCertificate(const ExactProblem& problem) {
   }
   if (IsSymmetric(problem)) {
     const auto range = DecideRange(problem.A, problem.b);
-    if (const auto* point = std::get_if<RangePoint>(&range)) {
-      return MakeCertificate("h", problem, {{"y", VectorToJson(point->x)}});
-    }
+    if (const auto* x = std::get_if<ExactVector>(&range))
+      return MakeCertificate("h", problem, {{"y", VectorToJson(*x)}});
   }
   const auto decision = DecideHypothesis(problem);
-  if (const auto* proof = std::get_if<HypothesisProof>(&decision)) {
-    return MakeCertificate("h", problem, {{"y", VectorToJson(proof->y)}});
-  }
-  const auto* obstacle = std::get_if<HypothesisObstacle>(&decision);
+  if (const auto* y = std::get_if<ExactVector>(&decision))
+    return MakeCertificate("h", problem, {{"y", VectorToJson(*y)}});
+  const auto* obstacle = std::get_if<Obstacle>(&decision);
   if (obstacle == nullptr) return nullptr;
   return MakeCertificate("not-h", problem,
-                         {{"v", VectorToJson(obstacle->v)}, {"value", ToString(obstacle->value)}});
+                         {{"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 Json ExistsCertificate(const ExactProblem& problem) {
@@ -122,29 +120,29 @@ void RequireTheoremSpeaksOf(const ExactProblem& problem, const std::string& sour
                      "bilateral, frictionless or static: with sliding contacts there may be no solution");
 }
 
-// Whether the factors, if there are some, show (H).
-bool ShowHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
-  return options.factors != nullptr && !HasSlidingContact(problem) &&
-         !FindDualConeViolation(problem, options.factors->c);
+constexpr char kHypothesis[] = "h", kExists[] = "exists";
+
+// The claim of this name, where the factors show (H).
+template <const char* kClaim>
+Json HypothesisByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  if (HasSlidingContact(problem) || FindDualConeViolation(problem, factors.c)) return nullptr;
+  return MakeCertificate(kClaim, problem, FactorsWitness(factors));
 }
 
-ClaimAnswer OfHypothesis(const ExactProblem& problem, const ClaimOptions& options) {
-  if (ShowHypothesis(problem, options))
-    return ByCertificate(MakeCertificate("h", problem, FactorsWitness(*options.factors)));
-  return ByCertificate(
-      HypothesisCertificate(problem),
-      "it hangs on the sign of b'v at a point of a friction cone that is not rational, or at its "
-      "edge");
+Json OfHypothesis(const ExactProblem& problem) {
+  Json found = HypothesisCertificate(problem);
+  if (!found.is_null()) return found;
+  return "it hangs on the sign of b'v at a point of a friction cone that is not rational, or at its edge";
 }
 
 // That there is none refutes it; that the theorem does not speak of a problem refutes nothing.
-ClaimAnswer OfExists(const ExactProblem& problem, const ClaimOptions& options) {
+ClaimAnswer OfExists(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
+                     const EnumerationWatch& watch) {
   constexpr std::size_t kFewContacts = 6;  // whose modes are all tried
-  if (ShowHypothesis(problem, options))
-    return ByCertificate(MakeCertificate("exists", problem, FactorsWitness(*options.factors)));
   Json certificate = ExistsCertificate(problem);
   if (certificate.is_null() && problem.contacts.size() <= kFewContacts) {
-    Json found = DecideExistence(problem, options.limits, options.enumeration).certificate;
+    Json found =
+        DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = request.limits}, watch).certificate;
     if (found.is_object() && found["claim"] == "no-solution") certificate = std::move(found);
   }
   return ByCertificate(std::move(certificate),
@@ -156,15 +154,22 @@ ClaimAnswer OfExists(const ExactProblem& problem, const ClaimOptions& options) {
 
 ClaimRows HypothesisClaims() {
   static constexpr Claim kClaims[] = {
-      Claim{"h", CheckHypothesis, "b'v >= 0 for all v in the friction cones with A v = 0", OfHypothesis},
+      Claim{.name = "h",
+            .check = CheckHypothesis,
+            .meaning = "b'v >= 0 for all v in the friction cones with A v = 0",
+            .certify = Alone<OfHypothesis>,
+            .by_factors = HypothesisByFactors<kHypothesis>},
       Claim{.name = "not-h",
             .check = CheckNotHypothesis,
             .meaning = "b'v < 0 for some v in the friction cones with A v = 0",
             .negative = true},
-      Claim{"exists", CheckExists,
-            "psd and h: by a theorem there is a solution, of any size; no forces are given", OfExists,
-            RequireTheoremSpeaksOf,
-            "there is a solution, by the theorem of certify/existence.md; its forces are not given"}};
+      Claim{.name = "exists",
+            .check = CheckExists,
+            .meaning = "psd and h: by a theorem there is a solution, of any size; no forces are given",
+            .certify = OfExists,
+            .require = RequireTheoremSpeaksOf,
+            .proves = "there is a solution, by the theorem of certify/existence.md; its forces are not given",
+            .by_factors = HypothesisByFactors<kExists>}};
   return {40, kClaims};
 }
 

@@ -43,13 +43,14 @@ Json SymmetryCertificate(const ExactProblem& problem) {
 
 namespace {
 
-Json NegativeCertificate(const ExactProblem& problem, const NegativeCurvature& negative) {
-  return MakeCertificate("not-psd", problem,
-                         {{"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}});
+Json ObstacleCertificate(const char* claim, const char* vector, const ExactProblem& problem,
+                         const Obstacle& obstacle) {
+  return MakeCertificate(claim, problem,
+                         {{vector, VectorToJson(obstacle.x)}, {"value", ToString(obstacle.value)}});
 }
 
 // Of a matrix whose elimination takes minutes: what doubles find, and rationals confirm.
-std::optional<NegativeCurvature> FindNegativeCurvature(const ExactProblem& problem) {
+std::optional<Obstacle> FindNegativeCurvature(const ExactProblem& problem) {
   constexpr int kEliminatedRows = 60;
   if (problem.rows() <= kEliminatedRows) return std::nullopt;
   return BoundCurvature(problem).negative;
@@ -58,32 +59,28 @@ std::optional<NegativeCurvature> FindNegativeCurvature(const ExactProblem& probl
 }  // namespace
 
 Json SemidefiniteCertificate(const ExactProblem& problem) {
-  if (const auto found = FindNegativeCurvature(problem)) return NegativeCertificate(problem, *found);
+  if (const auto found = FindNegativeCurvature(problem))
+    return ObstacleCertificate("not-psd", "x", problem, *found);
   const auto decision = DecideSemidefinite(problem.A);
-  if (const auto* negative = std::get_if<NegativeCurvature>(&decision))
-    return NegativeCertificate(problem, *negative);
+  if (const auto* negative = std::get_if<Obstacle>(&decision))
+    return ObstacleCertificate("not-psd", "x", problem, *negative);
   RequireSymmetricToClaim(problem, "psd");
   return MakeCertificate("psd", problem, FactorsToJson(std::get<LdltFactors>(decision)));
 }
 
 Json DefiniteCertificate(const ExactProblem& problem) {
   const auto decision = DecideDefinite(problem.A);
-  if (const auto* flat = std::get_if<NoCurvature>(&decision)) {
-    return MakeCertificate("not-definite", problem,
-                           {{"x", VectorToJson(flat->x)}, {"value", ToString(flat->value)}});
-  }
+  if (const auto* flat = std::get_if<Obstacle>(&decision))
+    return ObstacleCertificate("not-definite", "x", problem, *flat);
   RequireSymmetricToClaim(problem, "definite");
   return MakeCertificate("definite", problem, FactorsToJson(std::get<LdltFactors>(decision)));
 }
 
 Json RangeCertificate(const ExactProblem& problem) {
   const auto decision = DecideRange(problem.A, problem.b);
-  if (const auto* point = std::get_if<RangePoint>(&decision)) {
-    return MakeCertificate("in-range", problem, {{"x", VectorToJson(point->x)}});
-  }
-  const auto& obstacle = std::get<RangeObstacle>(decision);
-  return MakeCertificate("not-in-range", problem,
-                         {{"y", VectorToJson(obstacle.y)}, {"value", ToString(obstacle.value)}});
+  if (const auto* x = std::get_if<ExactVector>(&decision))
+    return MakeCertificate("in-range", problem, {{"x", VectorToJson(*x)}});
+  return ObstacleCertificate("not-in-range", "y", problem, std::get<Obstacle>(decision));
 }
 
 // ---- Checking ----------------------------------------------------------------------------------
@@ -214,15 +211,12 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-ClaimAnswer OfSemidefinite(const ExactProblem& problem, const ClaimOptions& options) {
-  if (options.factors == nullptr) return ByCertificate(SemidefiniteCertificate(problem));
-  return ByCertificate(MakeCertificate("psd", problem, FactorsWitness(*options.factors)));
+Json SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  return MakeCertificate("psd", problem, FactorsWitness(factors));
 }
 
-ClaimAnswer OfRange(const ExactProblem& problem, const ClaimOptions& options) {
-  const bool by_factors = options.factors != nullptr && IsInRangeByFactors(*options.factors);
-  return ByCertificate(by_factors ? MakeCertificate("in-range", problem, FactorsWitness(*options.factors))
-                                  : RangeCertificate(problem));
+Json RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  return IsInRangeByFactors(factors) ? MakeCertificate("in-range", problem, FactorsWitness(factors)) : Json();
 }
 
 }  // namespace
@@ -234,7 +228,11 @@ ClaimRows MatrixClaims() {
             .check = CheckNotSymmetric,
             .meaning = "an entry of A is unlike its mirror",
             .negative = true},
-      Claim{"psd", CheckSemidefinite, "A is positive semidefinite", OfSemidefinite},
+      Claim{.name = "psd",
+            .check = CheckSemidefinite,
+            .meaning = "A is positive semidefinite",
+            .certify = Alone<SemidefiniteCertificate>,
+            .by_factors = SemidefiniteByFactors},
       Claim{
           .name = "not-psd", .check = CheckNotSemidefinite, .meaning = "x'Ax < 0 for some x", .negative = true},
       Claim{"definite", CheckDefinite, "A is positive definite", Alone<DefiniteCertificate>},
@@ -242,7 +240,11 @@ ClaimRows MatrixClaims() {
             .check = CheckNotDefinite,
             .meaning = "x'Ax <= 0 for some x that is not zero",
             .negative = true},
-      Claim{"in-range", CheckInRange, "b is in the range of A", OfRange},
+      Claim{.name = "in-range",
+            .check = CheckInRange,
+            .meaning = "b is in the range of A",
+            .certify = Alone<RangeCertificate>,
+            .by_factors = RangeByFactors},
       Claim{.name = "not-in-range",
             .check = CheckNotInRange,
             .meaning = "some y has y'A = 0 and y'b /= 0",

@@ -17,8 +17,8 @@ namespace {
 // not, aN >= 0 behind the prefix. So only normal rows stand in the programs, and y = 0 in the others.
 class Refuter {
  public:
-  Refuter(const ExactProblem& problem, const EnumerationOptions& options)
-      : problem_(problem), options_(options), polygons_(FirstPolygons(problem)) {
+  Refuter(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch)
+      : problem_(problem), request_(request), watch_(watch), polygons_(FirstPolygons(problem)) {
     int row = 0;
     for (const auto& contact : problem.contacts) {
       normals_.push_back(row);
@@ -73,7 +73,7 @@ class Refuter {
   ExactVector Decide(const ModeWord& prefix) {
     constexpr int kRounds = 8;
     for (int round = 1;; ++round) {
-      if (result_.programs == options_.programs) {
+      if (result_.programs == request_.limits.programs) {
         result_.end = EnumerationEnd::kLimit;
         return {};
       }
@@ -115,27 +115,25 @@ class Refuter {
   }
 
   void Report(double share) {
-    decided_ += share;
-    if (!options_.progress) return;
-    if (!options_.progress({decided_, result_.prefixes, result_.programs, 0}))
-      result_.end = EnumerationEnd::kCancelled;
+    result_.decided += share;
+    if (request_.limits.Stopped() || (watch_ && !watch_(result_))) result_.end = EnumerationEnd::kStopped;
   }
 
   const ExactProblem& problem_;
-  const EnumerationOptions& options_;
+  const Request& request_;
+  const EnumerationWatch& watch_;
   RationalPolygons polygons_;
   std::vector<int> normals_;  // row by contact
-  double decided_ = 0;
   Enumeration result_;
 };
 
 }  // namespace
 
-Enumeration RefuteInSpace(const ExactProblem& problem, const EnumerationOptions& options) {
+Enumeration RefuteInSpace(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch) {
   if (problem.dimension != 3)
     throw InputError(
         fmt::format("refutations in space: a problem of dimension {}, expected 3", problem.dimension));
-  return Refuter(problem, options).Run();
+  return Refuter(problem, request, watch).Run();
 }
 
 }  // namespace stiction

@@ -180,29 +180,26 @@ bool IsZero(const Vector2<Rational>& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 
 
 }  // namespace
 
-std::optional<UnfitScene> UnfitForBox(const Scene<Rational>& scene) {
+std::optional<Rejected> UnfitForBox(const Scene<Rational>& scene) {
   if (!scene.joints.empty())
-    return UnfitScene{"joints", fmt::format("{} joints", scene.joints.size()),
-                      "none: no box is defined for them"};
+    return Rejected{"joints", fmt::format("{} joints", scene.joints.size()),
+                    "none: no box is defined for them"};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& body = scene.bodies[i];
     const std::string path = fmt::format("bodies[{}]", i);
     if (!IsZero(body.velocity) || sgn(body.spin) != 0)
-      return UnfitScene{path, "a velocity or spin", "a body at rest"};
+      return Rejected{path, "a velocity or spin", "a body at rest"};
     if (body.fixed && !IsZero(body.acceleration))
-      return UnfitScene{path + ".acceleration", "an acceleration", "none"};
+      return Rejected{path + ".acceleration", "an acceleration", "none"};
   }
-  if (FindContacts(scene).empty()) return UnfitScene{"contacts", "no contact", "at least one"};
+  if (FindContacts(scene).empty()) return Rejected{"contacts", "no contact", "at least one"};
   return std::nullopt;
 }
 
 TouchingScene Touching(const Scene<Rational>& scene) {
   STICTION_CHECK(!UnfitForBox(scene), "a scene at rest, without joints, with a contact");
   TouchingScene touching = {scene, FindContacts(scene), {}};
-  AssembleOptions<Rational> full;
-  full.minimal = false;
-  const auto model = Assemble(scene, touching.contacts, full);
-  touching.problem = model.Problem(0);
+  touching.problem = Assemble(scene, touching.contacts, Level::kForces, /*minimal=*/false).Problem(0);
   return touching;
 }
 

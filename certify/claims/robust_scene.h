@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "certify/exact/exact.h"
+#include "certify/exact/rejected.h"
 #include "scene/assemble.h"
 
 namespace stiction {
@@ -42,13 +43,9 @@ struct TouchingScene {
   ExactProblem problem;
 };
 
-// What keeps a scene from having a box: where in its file, what was found, what was expected.
-struct UnfitScene {
-  std::string path, found, expected;
-};
-
-// Boxes are defined for scenes of the plane that are at rest, without joints, with a contact.
-std::optional<UnfitScene> UnfitForBox(const Scene<Rational>& scene);
+// What keeps a scene from having a box, by its place in the file. Boxes are defined for scenes of the plane
+// that are at rest, without joints, with a contact.
+std::optional<Rejected> UnfitForBox(const Scene<Rational>& scene);
 
 // Requires a scene that is not unfit.
 TouchingScene Touching(const Scene<Rational>& scene);

@@ -270,19 +270,19 @@ Json CheckUnsafe(const ExactProblem& problem, const Json& witness) {
   return {{"word", stated}, {"determinant", ToString(value)}};
 }
 
-namespace {
-
 void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source) {
   RequireHandled(problem, source, "safety");
 }
 
+namespace {
+
 // By the determinants; of too many words by the condition number, if it is enough.
-ClaimAnswer OfSafety(const ExactProblem& problem, const ClaimOptions&) {
+Json OfSafety(const ExactProblem& problem) {
   Json decided = SafetyCertificateIfDecided(problem);
-  if (!decided.is_null()) return ByCertificate(std::move(decided));
-  return ByCertificate(ConditionCertificate(problem).value_or(Json()),
-                       fmt::format("there are more than {} words, and the condition number of A does not tell",
-                                   Grouped(kMaxSafetyWords)));
+  if (!decided.is_null()) return decided;
+  if (auto found = ConditionCertificate(problem)) return std::move(*found);
+  return fmt::format("there are more than {} words, and the condition number of A does not tell",
+                     Grouped(kMaxSafetyWords));
 }
 
 }  // namespace
@@ -290,7 +290,7 @@ ClaimAnswer OfSafety(const ExactProblem& problem, const ClaimOptions&) {
 ClaimRows SafetyClaims() {
   static constexpr Claim kClaims[] = {
       Claim{"safe", CheckSafe, "A is safe: ties apart, the published algorithm under apex=suspended ends",
-            OfSafety, RequireSafetyIsSaid},
+            Alone<OfSafety>, RequireSafetyIsSaid},
       Claim{.name = "unsafe",
             .check = CheckUnsafe,
             .meaning = "a reduced determinant is not positive",

@@ -79,6 +79,8 @@ struct Safety {
 // functions below, and FindSafetyThreshold, require it.
 void RequireSafetyDecidable(const ExactProblem& problem);
 
+// The same, by its place in `source`.
+void RequireSafetyIsSaid(const ExactProblem& problem, const std::string& source);
 // The same, of a certificate: otherwise Rejected.
 void RequireClaimableSafety(const ExactProblem& problem);
 

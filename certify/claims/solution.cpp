@@ -74,29 +74,23 @@ Json CheckCoulomb(const ExactProblem& problem, const Json& witness) {
 
 // ---- Rows --------------------------------------------------------------------------------------
 
-ClaimAnswer ExistingUnder(FrictionLaw law, const ExactProblem& problem, const ClaimOptions& o) {
-  Existence existence = DecideExistence(problem, o.limits, o.enumeration, law);
-  return ByCertificate(std::move(existence.certificate), existence.reason);
-}
-
 bool TheoremSpeaksOf(const ExactProblem& problem) {
   return IsSymmetric(problem) && !HasSlidingContact(problem);
 }
 
 // Forces, or that there are none; where neither is found, by the theorem.
-ClaimAnswer OfExistence(const ExactProblem& problem, const ClaimOptions& o) {
-  ClaimAnswer answer = ExistingUnder(o.law, problem, o);
+ClaimAnswer OfExistence(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
+                        const EnumerationWatch& watch) {
+  ClaimAnswer answer = DecideExistence(problem, request, watch);
   if (!answer.certificate.is_null() || !TheoremSpeaksOf(problem)) return answer;
   return ByCertificate(ExistsCertificate(problem), answer.reason + "; nor does the theorem speak of it");
 }
 
-ClaimAnswer OfSolution(const ExactProblem& problem, const ClaimOptions& o) {
-  return ExistingUnder(FrictionLaw::kBaraff, problem, o);
-}
-
-// The best bound that was found.
-ClaimAnswer OfCoulomb(const ExactProblem& problem, const ClaimOptions& o) {
-  return ExistingUnder(FrictionLaw::kCoulomb, problem, o);
+// Of Coulomb's law the best bound that was found.
+template <FrictionLaw kLaw>
+ClaimAnswer ExistingUnder(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
+                          const EnumerationWatch& watch) {
+  return DecideExistence(problem, {.law = kLaw, .limits = request.limits}, watch);
 }
 
 }  // namespace
@@ -108,8 +102,9 @@ ClaimRows SolutionClaims() {
             "no-solution",
             OfExistence},
       Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
-            OfSolution, RequireAny, "forces that meet all conditions"},
-      Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space", OfCoulomb, RequireSpace,
+            ExistingUnder<FrictionLaw::kBaraff>, RequireAny, "forces that meet all conditions"},
+      Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space",
+            ExistingUnder<FrictionLaw::kCoulomb>, RequireSpace,
             "forces that meet Coulomb's law up to the bound"}};
   return {10, kClaims};
 }

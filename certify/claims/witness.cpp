@@ -113,9 +113,9 @@ std::int64_t LengthOf(const Json& json) {
 
 }  // namespace
 
-BudgetOf::BudgetOf(std::initializer_list<const Json*> values) : before_(now_) {
-  now_ = {};
-  for (const Json* value : values) now_.length += LengthOf(*value);
+Budget::Budget(std::initializer_list<const Json*> values) : before_(length_) {
+  length_ = 0;
+  for (const Json* value : values) length_ += LengthOf(*value);
 }
 
 void RefuseCost(const std::string& found, const std::string& most) {
@@ -123,10 +123,10 @@ void RefuseCost(const std::string& found, const std::string& most) {
 }
 
 void RequireWork(double work) {
-  const double most = BudgetOf::Now().MostWork();
+  const double most = Budget::MostWork();
   if (work <= most) return;
   RefuseCost(fmt::format("a claim of work {:.0f}", work),
-             fmt::format(" of {:.0f}, by its length of {}", most, BudgetOf::Now().length));
+             fmt::format(" of {:.0f}, by its length of {}", most, Budget::Length()));
 }
 
 double ProductOperations(double n, double times) { return std::floor(times * (n * n + 64 * n + 320) / 16); }
@@ -161,7 +161,7 @@ std::int64_t Root(double square) {
 
 Cost::Cost(double operations) {
   RequireWork(operations * Budget::kShort);
-  most_ = Root(std::floor(BudgetOf::Now().MostWork() / std::max(operations, 1.0)) - Budget::kShort);
+  most_ = Root(std::floor(Budget::MostWork() / std::max(operations, 1.0)) - Budget::kShort);
 }
 
 void Cost::Add(std::int64_t bits) {
@@ -315,7 +315,7 @@ void RequireCheapSquare(const ExactProblem& problem, const ExactVector& x) {
 
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {
   const Json described = ProblemToJson(problem);
-  const BudgetOf budget({&described, &witness});
+  const Budget budget({&described, &witness});
   try {
     check(problem, witness);
     return std::nullopt;

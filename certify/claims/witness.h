@@ -15,6 +15,7 @@
 #include <string>
 
 #include "certify/exact/modes.h"
+#include "certify/exact/rejected.h"
 #include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
 
@@ -27,9 +28,6 @@ Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witnes
 
 // ---- Reading -----------------------------------------------------------------------------------
 
-struct Rejected {
-  std::string path, found, expected;
-};
 // More work than any checker does for a certificate, whether its claim is true or not.
 struct TooDear : Rejected {};
 
@@ -41,33 +39,28 @@ struct TooDear : Rejected {};
 // bounded by those of rows and vectors over their common denominators, which add up: a determinant of A has no
 // more bits than the rows of A together.
 
-struct Budget {
+// That of the certificate which this thread reads, as long as this lives.
+class Budget {
+ public:
   static constexpr double kFreeWork = 6e12, kWorkPerCharacter = 250'000;
   static constexpr std::int64_t kFreeDigits = 1'000'000, kDigitsPerCharacter = 2;
   static constexpr std::int64_t kFreeCells = 2'000'000, kCellsPerCharacter = 5;
   static constexpr double kShort = 1e6;  // the square of the bits with which an operation takes twice as long
 
-  std::int64_t length = 0;  // characters of texts and keys, and two for every value
-
-  double MostWork() const { return kFreeWork + kWorkPerCharacter * static_cast<double>(length); }
-  std::int64_t MostDigits() const { return kFreeDigits + kDigitsPerCharacter * length; }
-  std::int64_t MostCells() const { return kFreeCells + kCellsPerCharacter * length; }
-};
-
-// That of the certificate which this thread reads, as long as this lives.
-class BudgetOf {
- public:
   // Of values of a certificate.
-  explicit BudgetOf(std::initializer_list<const Json*> values);
-  ~BudgetOf() { now_ = before_; }
-  BudgetOf(const BudgetOf&) = delete;
-  BudgetOf& operator=(const BudgetOf&) = delete;
+  explicit Budget(std::initializer_list<const Json*> values);
+  ~Budget() { length_ = before_; }
+  Budget(const Budget&) = delete;
+  Budget& operator=(const Budget&) = delete;
 
-  static const Budget& Now() { return now_; }
+  static std::int64_t Length() { return length_; }  // characters of texts and keys, and two for every value
+  static double MostWork() { return kFreeWork + kWorkPerCharacter * static_cast<double>(length_); }
+  static std::int64_t MostDigits() { return kFreeDigits + kDigitsPerCharacter * length_; }
+  static std::int64_t MostCells() { return kFreeCells + kCellsPerCharacter * length_; }
 
  private:
-  inline static thread_local Budget now_;
-  Budget before_;
+  inline static thread_local std::int64_t length_ = 0;
+  std::int64_t before_;
 };
 
 // TooDear: what was found, and the limit that it exceeds.

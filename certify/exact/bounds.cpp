@@ -123,7 +123,7 @@ CurvatureBounds BoundCurvature(const AnyProblem& problem) {
   if (const auto x = ProposeNegative(S)) {
     const Rational value = SumOfProducts(*x, problem.entries().A * *x);
     if (value < 0) {
-      bounds.negative = NegativeCurvature{*x, value};
+      bounds.negative = Obstacle{*x, value};
       bounds.most = ToDouble(value / SumOfProducts(*x, *x));
     }
   }

@@ -27,10 +27,10 @@
 namespace stiction {
 
 struct CurvatureBounds {
-  double scale = 0;             // largest A_ii
-  std::optional<double> least;  // x'Ax >= least x'x for all x; >= 0: A is positive semidefinite
-  std::optional<NegativeCurvature> negative;
-  double most = 0;  // x'Ax / x'x of `negative`, rounded: what there is to see of it
+  double scale = 0;                  // largest A_ii
+  std::optional<double> least;       // x'Ax >= least x'x for all x; >= 0: A is positive semidefinite
+  std::optional<Obstacle> negative;  // x'Ax < 0
+  double most = 0;                   // x'Ax / x'x of `negative`, rounded: what there is to see of it
 };
 CurvatureBounds BoundCurvature(const AnyProblem& problem);
 

@@ -107,8 +107,8 @@ class IntegerRows {
 
 class Enumerator {
  public:
-  Enumerator(const ExactProblem& problem, const EnumerationOptions& options)
-      : problem_(problem), options_(options), integers_(problem) {
+  Enumerator(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch)
+      : problem_(problem), request_(request), watch_(watch), integers_(problem) {
     layout_.Assign(problem.contacts);
   }
 
@@ -179,7 +179,7 @@ class Enumerator {
   // Whether the prefix is feasible: then `witness` is filled, otherwise a refutation is noted. Neither, and
   // false, if the budget is spent.
   bool SolveProgram(const ModeWord& prefix, Witness& witness) {
-    if (result_.programs == options_.programs) {
+    if (result_.programs == request_.limits.programs) {
       result_.end = EnumerationEnd::kLimit;
       return false;
     }
@@ -258,7 +258,6 @@ class Enumerator {
     const auto violation = FindViolation(problem_, witness.f);
     STICTION_CHECK(!violation, "a mode has a solution that breaks a law: " + violation.value_or(""));
     result_.solutions.push_back({word, witness.f, IsUnique(word, witness.f)});
-    if (options_.first_solution_only) result_.end = EnumerationEnd::kFirstSolution;
   }
 
   // Coordinates of f along the edges of the word; they are unique, since edges of a contact are independent.
@@ -275,31 +274,29 @@ class Enumerator {
   }
 
   void Report(double share) {
-    decided_ += share;
-    if (!options_.progress || Ended()) return;
-    const EnumerationProgress progress = {decided_, result_.prefixes, result_.programs,
-                                          static_cast<std::int64_t>(result_.solutions.size())};
-    if (!options_.progress(progress)) result_.end = EnumerationEnd::kCancelled;
+    if (Ended()) return;
+    result_.decided += share;
+    if (request_.limits.Stopped() || (watch_ && !watch_(result_))) result_.end = EnumerationEnd::kStopped;
   }
 
   static constexpr std::size_t kKnown = 64;  // Farkas vectors tried again
 
   const ExactProblem& problem_;
-  const EnumerationOptions& options_;
+  const Request& request_;
+  const EnumerationWatch& watch_;
   RowLayout<Eigen::Dynamic> layout_;
   IntegerRows integers_;
   std::deque<FarkasVector> known_;  // the latest first
-  double decided_ = 0;
   Enumeration result_;
 };
 
 }  // namespace
 
-Enumeration EnumerateModes(const ExactProblem& problem, const EnumerationOptions& options) {
+Enumeration EnumerateModes(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch) {
   if (problem.dimension != 2) {
     throw InputError(fmt::format("method enumerate: a problem of dimension {}, expected 2", problem.dimension));
   }
-  return Enumerator(problem, options).Run();
+  return Enumerator(problem, request, watch).Run();
 }
 
 }  // namespace stiction

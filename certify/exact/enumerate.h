@@ -23,22 +23,9 @@
 #include <vector>
 
 #include "certify/exact/modes.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
-
-struct EnumerationProgress {
-  double decided = 0;  // part of all words, 0 to 1
-  std::int64_t prefixes = 0;
-  std::int64_t programs = 0;
-  std::int64_t solutions = 0;
-};
-
-struct EnumerationOptions {
-  bool first_solution_only = false;
-  std::int64_t programs = 1000000;  // budget of linear programs
-  // Called after every prefix; false cancels the search.
-  std::function<bool(const EnumerationProgress&)> progress;
-};
 
 // A word that has solutions.
 struct WordSolution {
@@ -52,13 +39,14 @@ struct RefutedPrefix {
   ExactVector y;  // integers without a common factor; no_solution.h says what it proves
 };
 
-enum class EnumerationEnd : std::uint8_t { kComplete, kFirstSolution, kCancelled, kLimit, kOpen };
+enum class EnumerationEnd : std::uint8_t { kComplete, kStopped, kLimit, kOpen };
 
 struct Enumeration {
   EnumerationEnd end = EnumerationEnd::kComplete;
+  double decided = 0;                   // part of all words, 0 to 1
   std::vector<WordSolution> solutions;  // in the order of the words
   std::vector<RefutedPrefix> refuted;   // if complete: words and prefixes together cover every word once
-  std::int64_t distinct_witnesses = 0;  // different f among the solutions
+  std::int64_t distinct_witnesses = 0;  // different f among the solutions, at the end
   std::int64_t prefixes = 0;            // visited
   std::int64_t programs = 0;            // linear programs solved to decide them
   std::int64_t reused_witnesses = 0;    // prefixes decided by the witness of the prefix before
@@ -67,13 +55,22 @@ struct Enumeration {
   bool ProvesNoSolution() const { return end == EnumerationEnd::kComplete && solutions.empty(); }
 };
 
+// Called after every prefix with what there is so far; false ends the search, as limits.stop does.
+using EnumerationWatch = std::function<bool(const Enumeration&)>;
+// A watch to which the first solution in the order of the words is enough.
+inline bool UntilSolved(const Enumeration& so_far) { return so_far.solutions.empty(); }
+
+// Of the request limits.programs and limits.stop are read.
+
 // Requires: a planar problem (otherwise InputError). Throws InternalError if a witness or a Farkas vector of
 // the linear programs does not stand exact verification.
-Enumeration EnumerateModes(const ExactProblem& problem, const EnumerationOptions& options = {});
+Enumeration EnumerateModes(const ExactProblem& problem, const Request& request = {},
+                           const EnumerationWatch& watch = {});
 
 // Requires: a problem in space (otherwise InputError). Ends as kOpen at the first word that no Farkas vector is
 // found for; of `solutions` nothing is said.
-Enumeration RefuteInSpace(const ExactProblem& problem, const EnumerationOptions& options = {});
+Enumeration RefuteInSpace(const ExactProblem& problem, const Request& request = {},
+                          const EnumerationWatch& watch = {});
 
 }  // namespace stiction
 

@@ -23,13 +23,12 @@ Verdict VerdictOn(const Remainder<Rational>& remainder) { return {Outcome::kSing
 // A run on the remainder in the terms of the whole problem.
 ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
   for (Pivot<Rational>& pivot : run.trace.pivots) pivot = remainder.Restored(std::move(pivot));
-  ExactState& state = run.state;
-  state.sets = remainder.Sets(std::move(state.sets), IndexSet::kClamped);
-  state.last_left = remainder.Sets(std::move(state.last_left), IndexSet::kNone);
-  state.f = remainder.Forces(state.f);
-  state.last_driven_contact = remainder.ContactOf(state.last_driven_contact);
+  run.sets = remainder.Sets(std::move(run.sets), IndexSet::kClamped);
+  run.last_left = remainder.Sets(std::move(run.last_left), IndexSet::kNone);
+  run.f = remainder.Forces(run.f);
+  run.last_driven_contact = remainder.ContactOf(run.last_driven_contact);
   run.initial_f = remainder.Forces(run.initial_f);
-  if (&remainder.problem() != &remainder.whole()) run.a = remainder.Accelerations(state.f);
+  if (&remainder.problem() != &remainder.whole()) run.a = remainder.Accelerations(run.f);
   if (run.verdict.outcome == Outcome::kRay) run.ray = remainder.Direction(run.ray);
   return run;
 }
@@ -38,9 +37,9 @@ ExactRun Restored(const Remainder<Rational>& remainder, ExactRun run) {
 ExactRun Unstarted(const ExactProblem& problem, const Verdict& verdict) {
   ExactRun run;
   run.verdict = verdict;
-  run.initial_f = run.state.f = ExactProblem::Vector::Zero(problem.rows());
-  run.state.sets.assign(problem.rows(), IndexSet::kNone);
-  run.state.last_left = run.state.sets;
+  run.initial_f = run.f = ExactProblem::Vector::Zero(problem.rows());
+  run.sets.assign(problem.rows(), IndexSet::kNone);
+  run.last_left = run.sets;
   run.a = problem.b;
   return run;
 }
@@ -52,9 +51,12 @@ ExactRun RunRemaining(const ExactProblem& problem, const Request& request) {
   run.trace.pivots.reserve(kPivotsExpected);
   run.verdict = algorithm.Run(problem, &run.trace);
   run.initial_f = ExactProblem::Vector::Zero(problem.rows());
-  run.state = {algorithm.state().sets, algorithm.state().f, algorithm.last_driven_contact(),
-               algorithm.last_left(), algorithm.last_step_zero()};
+  run.sets = algorithm.state().sets;
+  run.f = algorithm.state().f;
   run.a = algorithm.state().a;
+  run.last_driven_contact = algorithm.last_driven_contact();
+  run.last_left = algorithm.last_left();
+  run.last_step_zero = algorithm.last_step_zero();
   if (run.verdict.outcome == Outcome::kRay) run.ray = algorithm.direction().df();
   return run;
 }

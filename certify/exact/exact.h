@@ -20,23 +20,17 @@
 
 namespace stiction {
 
-// What recurs in a loop, and where a run stands when it ends (readings.md, 2 and 3).
-struct ExactState {
-  std::vector<IndexSet> sets;
-  ExactProblem::Vector f;
-  int last_driven_contact = -1;
-  std::vector<IndexSet> last_left;  // in the last drive
-  bool last_step_zero = false;
-};
-
 struct ExactRun {
   Policy policy;
   Verdict verdict;
   ExactProblem::Vector initial_f;  // before the first step: zero but for bilateral contacts
   Trace<Rational> trace;
-  ExactState state;
-  ExactProblem::Vector a;
-  ExactProblem::Vector ray;  // df of a ray, otherwise empty
+  // Where it stands when it ends: what recurs in a loop (readings.md, 2 and 3), accelerations, df of a ray.
+  std::vector<IndexSet> sets;
+  ExactProblem::Vector f, a, ray;
+  int last_driven_contact = -1;
+  std::vector<IndexSet> last_left;  // in the last drive
+  bool last_step_zero = false;
 };
 
 // Requires dimension 2.

@@ -72,19 +72,15 @@ bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, con
 
 namespace {
 
-struct Gap {
-  std::size_t contact;
-  Mode mode;
-};
-
 // The first contact and mode whose term can be negative.
-std::optional<Gap> FindGap(const ExactProblem& problem, const ModeWord& prefix, const FarkasVector& farkas) {
+std::optional<std::pair<std::size_t, Mode>> FindGap(const ExactProblem& problem, const ModeWord& prefix,
+                                                    const FarkasVector& farkas) {
   int row = 0;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const auto& contact = problem.contacts[i];
     const auto modes = i < prefix.size() ? std::span(&prefix[i], 1) : ModesOf(contact, problem.dimension);
     for (const Mode mode : modes) {
-      if (!TermIsNonnegative(contact, row, mode, farkas, problem.dimension)) return Gap{i, mode};
+      if (!TermIsNonnegative(contact, row, mode, farkas, problem.dimension)) return std::pair(i, mode);
     }
     row += contact.HasFrictionRows() ? problem.dimension : 1;
   }
@@ -102,7 +98,7 @@ std::optional<std::string> FindRefutationGap(const ExactProblem& problem, const 
   if (farkas.value >= 0) return "y'b = " + ToString(farkas.value) + ", expected a number < 0";
   const auto gap = FindGap(problem, prefix, farkas);
   if (!gap) return std::nullopt;
-  return fmt::format("the term of contact {} can be negative in mode {}", gap->contact + 1, Name(gap->mode));
+  return fmt::format("the term of contact {} can be negative in mode {}", gap->first + 1, Name(gap->second));
 }
 
 }  // namespace stiction

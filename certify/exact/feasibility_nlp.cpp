@@ -4,8 +4,6 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
 #include <set>
 #include <string>
 #include <system_error>
@@ -20,8 +18,6 @@
 
 namespace stiction {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kProtocol = 1;
 constexpr double kGreetingPatience = 30;  // seconds; loading libraries on a busy machine
@@ -43,46 +39,8 @@ std::unique_ptr<LineProcess> StartIpopt(const std::filesystem::path& program) {
       line.end == LineProcess::End::kLine ? "\"" + Shortened(line.text) + "\"" : "no greeting", kProtocol));
 }
 
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-}  // namespace
-
-// ---- Requests ------------------------------------------------------------------------------------
-
-namespace {
-
-// One start a request, since words near a point that is no solution may have one: the first, to be changed.
-Json MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled, const ProposalOptions& options) {
-  Json contacts = Json::array();
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    Json& contact = contacts.emplace_back(Json{{"kind", Name(problem.contacts[i].kind)}});
-    if (problem.contacts[i].HasFrictionRows()) contact["mu"] = scaled.numbers.contacts[i].mu;
-    if (problem.contacts[i].kind == ContactKind::kSliding) contact["slip"] = scaled.numbers.contacts[i].slip[0];
-  }
-  Json A = Json::array();
-  for (const auto& row : scaled.numbers.A.rowwise()) A.push_back(std::vector<double>(row.begin(), row.end()));
-  const auto& b = scaled.numbers.b;
-  const bool quadratic = options.formulation == Formulation::kQuadratic;
-  return {{"dimension", problem.dimension},
-          {"contacts", contacts},
-          {"A", A},
-          {"b", std::vector<double>(b.begin(), b.end())},
-          {"options",
-           {{"first_start", 0},
-            {"max_iterations", options.max_iterations},
-            {"starts", 1},
-            {"seed", options.seed},
-            {"formulation", quadratic ? "qp" : "nlp"}}}};
-}
-
-void RequireHandled(const ExactProblem& problem, const ProposalOptions& options) {
-  STICTION_CHECK(options.starts >= 1 && options.max_iterations >= 1 && options.words >= 1,
-                 "ipopt: starts, iterations and words are at least 1");
-  STICTION_CHECK(options.patience > 0 && options.patience <= 1e6, "ipopt: patience is from 0 to 1e6 seconds");
+void RequirePlane(const ExactProblem& problem) {
   if (problem.dimension != 2) throw InputError("dimension: found 3, expected 2 for ipopt");
-  if (options.formulation == Formulation::kQuadratic) RequireFrictionless(problem);
 }
 
 }  // namespace
@@ -107,12 +65,6 @@ std::filesystem::path FindIpoptProgram() {
   return folder / kName;
 }
 
-// What the process answered.
-struct IpoptProposer::Point {
-  std::vector<double> f;
-  int starts = 0;
-};
-
 // ---- The proposer --------------------------------------------------------------------------------
 
 IpoptProposer::IpoptProposer(const std::filesystem::path& program)
@@ -122,97 +74,103 @@ IpoptProposer::~IpoptProposer() = default;
 
 int IpoptProposer::process_id() const { return process_ ? process_->id() : -1; }
 
-std::optional<IpoptProposer::Point> IpoptProposer::Ask(const std::string& request, double patience,
-                                                       ProposalStatistics& statistics) {
-  ++statistics.requests;
+// One start a request, since words near a point that is no solution may have one: the first, to be changed.
+Json IpoptProposer::MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled,
+                                const char* formulation) const {
+  STICTION_CHECK(starts >= 1 && max_iterations >= 1 && words >= 1,
+                 "ipopt: starts, iterations and words are at least 1");
+  STICTION_CHECK(patience > 0 && patience <= 1e6, "ipopt: patience is from 0 to 1e6 seconds");
+  Json contacts = Json::array();
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    Json& contact = contacts.emplace_back(Json{{"kind", Name(problem.contacts[i].kind)}});
+    if (problem.contacts[i].HasFrictionRows()) contact["mu"] = scaled.numbers.contacts[i].mu;
+    if (problem.contacts[i].kind == ContactKind::kSliding) contact["slip"] = scaled.numbers.contacts[i].slip[0];
+  }
+  Json A = Json::array();
+  for (const auto& row : scaled.numbers.A.rowwise()) A.push_back(std::vector<double>(row.begin(), row.end()));
+  const auto& b = scaled.numbers.b;
+  return {{"dimension", problem.dimension},
+          {"contacts", contacts},
+          {"A", A},
+          {"b", std::vector<double>(b.begin(), b.end())},
+          {"options",
+           {{"first_start", 0},
+            {"max_iterations", max_iterations},
+            {"starts", 1},
+            {"seed", seed},
+            {"formulation", formulation}}}};
+}
+
+std::optional<std::vector<double>> IpoptProposer::Ask(const std::string& request, Counters& counters) {
   for (int attempt = 0; attempt < 2; ++attempt) {
-    if (!process_) {
-      ++statistics.restarts;
-      process_ = StartIpopt(program_);
-    }
+    if (!process_) process_ = StartIpopt(program_);
     // Kept only if it answers: whatever is thrown ends it.
     std::unique_ptr<LineProcess> process = std::move(process_);
     const LineProcess::Line line = process->Exchange(request, patience);
     if (line.end == LineProcess::End::kLine) {
-      Point point = ReadPoint(line.text, statistics);
+      std::vector<double> f = ReadPoint(line.text, counters);
       process_ = std::move(process);
-      return point;
+      return f;
     }
-    if (line.end == LineProcess::End::kTimeout) {
-      ++statistics.timeouts;
-      return std::nullopt;
-    }
+    if (line.end == LineProcess::End::kTimeout) return std::nullopt;
   }
   return std::nullopt;
 }
 
-IpoptProposer::Point IpoptProposer::ReadPoint(const std::string& text, ProposalStatistics& statistics) const {
+std::vector<double> IpoptProposer::ReadPoint(const std::string& text, Counters& counters) {
   const Json json = ParseJson(text, program_.string());
   STICTION_CHECK(json.value("status", "") != "refused", "stiction-ipopt refused: " + Shown(json));
-  Point point;
   try {
-    point = {json.at("f").get<std::vector<double>>(), json.at("starts").get<int>()};
-    statistics.iterations += json.at("iterations").get<std::int64_t>();
-    statistics.ipopt_seconds += json.at("seconds").get<double>();
+    auto f = json.at("f").get<std::vector<double>>();
+    counters[Counter::kStarts] += json.at("starts").get<std::int64_t>();
+    counters[Counter::kIterations] += json.at("iterations").get<std::int64_t>();
+    ipopt_seconds_ += json.at("seconds").get<double>();
+    return f;
   } catch (const Json::exception& error) {
     throw InputError(
         fmt::format("{}: found {} ({}), expected an answer", program_.string(), Shown(json), error.what()));
   }
-  statistics.starts += point.starts;
-  return point;
 }
 
 // Forces of the scaled problem.
-std::optional<std::vector<double>> IpoptProposer::AskForces(const Json& request, int rows, double patience,
-                                                            ProposalStatistics& statistics) {
-  auto point = Ask(JsonText(request) + "\n", patience, statistics);
-  if (!point) return std::nullopt;
-  if (static_cast<int>(point->f.size()) == rows) return std::move(point->f);
-  throw InputError(fmt::format("{}: found {} forces, expected {}", program_.string(), point->f.size(), rows));
+std::optional<std::vector<double>> IpoptProposer::AskForces(const Json& request, int rows, Counters& counters) {
+  auto f = Ask(JsonText(request) + "\n", counters);
+  if (!f || static_cast<int>(f->size()) == rows) return f;
+  throw InputError(fmt::format("{}: found {} forces, expected {}", program_.string(), f->size(), rows));
 }
 
-std::optional<ExactVector> IpoptProposer::Search(const ExactProblem& problem, const ProposalOptions& options,
-                                                 ProposalStatistics& statistics) {
+Answer<Rational> IpoptProposer::ProposeSolution(const ExactProblem& problem) {
+  RequirePlane(problem);
   const ScaledProblem scaled = MakeScaled(problem);
-  Json request = MakeRequest(problem, scaled, options);
+  Json request = MakeRequest(problem, scaled, "nlp");
+  Counters counters = {Counter::kStarts, Counter::kIterations, Counter::kWords};
   std::set<ModeWord> tried;
-  for (int start = 0; start < options.starts; ++start) {
+  Answer<Rational> answer;
+  for (int start = 0; start < starts && !answer.Solved(); ++start) {
     request["options"]["first_start"] = start;
-    const auto f = AskForces(request, problem.rows(), options.patience, statistics);
-    if (!f) return std::nullopt;
-    NearbyWords near = SolveNear(problem, scaled, *f, options.words, tried);
-    statistics.words += near.words;
-    statistics.first_words += near.is_first;
-    if (near.f) return std::move(near.f);
+    const auto f = AskForces(request, problem.rows(), counters);
+    if (!f) break;
+    answer = SolveNear(problem, scaled, *f, words, tried);
+    counters += answer.counters;
   }
-  return std::nullopt;
+  answer.counters = counters;
+  if (!answer.Solved()) answer.reason = "no point that Ipopt proposed led to a solution";
+  return answer;
 }
 
-std::optional<std::vector<double>> IpoptProposer::ProposePoint(const ExactProblem& problem,
-                                                               const ProposalOptions& options,
-                                                               ProposalStatistics& statistics) {
-  const Clock::time_point begin = Clock::now();
-  RequireHandled(problem, options);
+Answer<double> IpoptProposer::ProposePoint(const ExactProblem& problem) {
+  RequirePlane(problem);
+  RequireFrictionless(problem);
   const ScaledProblem scaled = MakeScaled(problem);
-  auto f = AskForces(MakeRequest(problem, scaled, options), problem.rows(), options.patience, statistics);
-  if (f) {
-    for (double& x : *f) x *= ToDouble(scaled.force);
-  }
-  ++statistics.problems;
-  statistics.seconds += SecondsSince(begin);
-  return f;
-}
-
-std::optional<ExactVector> IpoptProposer::ProposeSolution(const ExactProblem& problem,
-                                                          const ProposalOptions& options,
-                                                          ProposalStatistics& statistics) {
-  const Clock::time_point begin = Clock::now();
-  RequireHandled(problem, options);
-  auto solution = Search(problem, options, statistics);
-  ++statistics.problems;
-  statistics.solved += solution.has_value();
-  statistics.seconds += SecondsSince(begin);
-  return solution;
+  Counters counters;
+  const auto f = AskForces(MakeRequest(problem, scaled, "qp"), problem.rows(), counters);
+  Answer<double> answer;
+  answer.counters = {{Counter::kIterations, counters[Counter::kIterations]}};
+  answer.reason = "no answer from Ipopt";
+  if (!f) return answer;
+  answer.f = Eigen::VectorXd::Map(f->data(), problem.rows()) * ToDouble(scaled.force);
+  answer.reason = "the errors of Ipopt's point are above the bound";  // unless the gate finds that they are not
+  return answer;
 }
 
 }  // namespace stiction

@@ -39,63 +39,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "certify/exact/modes.h"
+#include "certify/exact/nearby_words.h"
+#include "corpus/json_text.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
-
-enum class Formulation : std::uint8_t {
-  kNonlinear,  // (17), (18) made smooth: every planar problem
-  kQuadratic,  // (5): frictionless contacts only
-};
-
-struct ProposalOptions {
-  Formulation formulation = Formulation::kNonlinear;
-  int starts = 20;           // of Ipopt, each from another point; at least 1
-  int max_iterations = 200;  // of a start; at least 1
-  int words = 64;            // words solved exactly; at least 1
-  std::uint64_t seed = 1;    // of the starts
-  // A request that takes longer is given up and its process ended: a guard against a hanging library, to be
-  // set far above what starts x max_iterations take.
-  double patience = 60;
-
-  bool operator==(const ProposalOptions&) const = default;
-};
-
-struct ProposalStatistics {
-  std::int64_t problems = 0;
-  std::int64_t solved = 0;       // with an exactly verified solution
-  std::int64_t requests = 0;     // to the process
-  std::int64_t starts = 0;       // of Ipopt
-  std::int64_t iterations = 0;   // of Ipopt
-  std::int64_t words = 0;        // solved exactly
-  std::int64_t first_words = 0;  // solutions from the first word of a point
-  std::int64_t restarts = 0;     // of the process, after it died or was ended
-  std::int64_t timeouts = 0;     // requests given up
-  double ipopt_seconds = 0;      // as the process says
-  double seconds = 0;            // all
-
-  bool operator==(const ProposalStatistics&) const = default;
-};
-
-// visit(name, help, value)
-template <class S, class Visit>
-requires std::is_same_v<std::remove_const_t<S>, ProposalStatistics>
-void ForEachField(S& s, Visit visit) {
-  visit("problems", "problems asked for", s.problems);
-  visit("solved", "exactly verified solutions", s.solved);
-  visit("requests", "requests to the process", s.requests);
-  visit("starts", "starts of Ipopt", s.starts);
-  visit("iterations", "iterations of Ipopt", s.iterations);
-  visit("words", "mode words solved exactly", s.words);
-  visit("first_words", "solutions from the first word of a point", s.first_words);
-  visit("restarts", "processes started after the first", s.restarts);
-  visit("timeouts", "requests given up", s.timeouts);
-  visit("ipopt_seconds", "time in Ipopt", s.ipopt_seconds);
-  visit("seconds", "time in all", s.seconds);
-}
 
 // `stiction-ipopt` beside the running executable, or where a build directory around it, or around the Python
 // package, has it, or in bin/ beside the lib/ that this package is installed in. If it is nowhere, the path
@@ -107,38 +57,46 @@ class LineProcess;
 // Owns one process; one per thread.
 class IpoptProposer {
  public:
+  // Of what is asked from now on.
+  int starts = 20;           // of Ipopt, each from another point; at least 1
+  int max_iterations = 200;  // of a start; at least 1
+  int words = 64;            // near a point, solved exactly; at least 1
+  std::uint64_t seed = 1;    // of the starts
+  // A request that takes longer, in seconds, is given up and its process ended: a guard against a hanging
+  // library, to be set far above what starts x max_iterations take.
+  double patience = 60;
+
   // Starts the program. InputError if it cannot be run, or does not speak the protocol.
   explicit IpoptProposer(const std::filesystem::path& program = FindIpoptProgram());
   ~IpoptProposer();
   IpoptProposer(const IpoptProposer&) = delete;
   IpoptProposer& operator=(const IpoptProposer&) = delete;
 
-  // A solution, exactly verified; empty if none was found. Adds to `statistics`. A process that died is started
-  // anew and asked again, once per request. InputError: a problem in space; a formulation that does not fit; a
-  // friction coefficient beyond the doubles; a program that can no longer be run.
-  std::optional<ExactVector> ProposeSolution(const ExactProblem& problem, const ProposalOptions& options,
-                                             ProposalStatistics& statistics);
+  // A solution, exactly verified; undecided if none was found. Counters: starts, iterations, words. A process
+  // that died is started anew and asked again, once per request. InputError: a problem in space; a friction
+  // coefficient beyond the doubles; a program that can no longer be run.
+  Answer<Rational> ProposeSolution(const ExactProblem& problem);
 
-  // The point that Ipopt ends at from its first start, in the units of the problem, as it is; empty if the
-  // process gave no answer. InputError as above.
-  std::optional<std::vector<double>> ProposePoint(const ExactProblem& problem, const ProposalOptions& options,
-                                                  ProposalStatistics& statistics);
+  // Method `qp` over doubles: the point that Ipopt ends at from its first start with equation (5), as it is, in
+  // the units of the problem; undecided, since nothing is concluded from its failure, and its point is for the
+  // gate to judge (solver/solve.h). Without f where there was no answer. Counter: iterations. InputError as
+  // above, and for a contact that is not frictionless.
+  Answer<double> ProposePoint(const ExactProblem& problem);
 
   // Of the running process; -1 if it died and has not been started anew.
   int process_id() const;
+  // Time in Ipopt since the beginning, as the process says.
+  double ipopt_seconds() const { return ipopt_seconds_; }
 
  private:
-  struct Point;
-
-  std::optional<ExactVector> Search(const ExactProblem& problem, const ProposalOptions& options,
-                                    ProposalStatistics& statistics);
-  std::optional<std::vector<double>> AskForces(const Json& request, int rows, double patience,
-                                               ProposalStatistics& statistics);
-  std::optional<Point> Ask(const std::string& request, double patience, ProposalStatistics& statistics);
-  Point ReadPoint(const std::string& text, ProposalStatistics& statistics) const;
+  Json MakeRequest(const ExactProblem& problem, const ScaledProblem& scaled, const char* formulation) const;
+  std::optional<std::vector<double>> AskForces(const Json& request, int rows, Counters& counters);
+  std::optional<std::vector<double>> Ask(const std::string& request, Counters& counters);
+  std::vector<double> ReadPoint(const std::string& text, Counters& counters);
 
   std::filesystem::path program_;
   std::unique_ptr<LineProcess> process_;  // empty after it died
+  double ipopt_seconds_ = 0;
 };
 
 }  // namespace stiction

@@ -215,11 +215,11 @@ std::optional<ExactAnswer> TryComplete(const ExactProblem& problem, const Limits
   }
   if (!answer.Solved()) return std::nullopt;
   answer.word = driving.Word();
-  auto solution =
+  ExactAnswer solution =
       SolveWord(problem, *WordNamed(problem, answer.word), std::vector<Rational>(problem.rows(), 0));
-  if (!solution) return std::nullopt;
-  answer.f = std::move(solution->f);
-  answer.a = std::move(solution->a);
+  if (!solution.Solved()) return std::nullopt;
+  answer.f = std::move(solution.f);
+  answer.a = std::move(solution.a);
   return answer;
 }
 
@@ -259,7 +259,7 @@ namespace {
 
 // The middle of what is enclosed, judged; empty where it is too far from the law to be told as a solution.
 std::optional<InexactAnswer> TellEnclosed(const ContactProblem<double>& rounded,
-                                          const EnclosedSolution& solution, double bound,
+                                          const Answer<NarrowBall>& solution, double bound,
                                           InexactAnswer answer) {
   answer.f = MiddleOf(solution.f);
   JudgeAnswer(rounded, bound, answer);
@@ -272,13 +272,9 @@ std::optional<InexactAnswer> TellEnclosed(const ContactProblem<double>& rounded,
   return answer;
 }
 
-ExactAnswer TellExactly(const InexactAnswer& run, ExactVector f, ExactVector a, const std::string& word) {
-  ExactAnswer answer;
-  answer.outcome = Outcome::kSolved;
+ExactAnswer TellExactly(const InexactAnswer& run, ExactAnswer answer, const std::string& word) {
   answer.method = run.method;
   answer.counters = run.counters;
-  answer.f = std::move(f);
-  answer.a = std::move(a);
   answer.first_f = ExactVector::Constant(answer.f.size(), Rational(0));
   answer.word = word;
   answer.arithmetic = Arithmetic::kFiltered;
@@ -303,12 +299,12 @@ CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& prob
   const double bound = ResidualOf<double>(request);
   const auto enclose = [&](const ModeWord& word) {
     const auto solution = EncloseWord(*rounded, word);
-    return solution ? TellEnclosed(*rounded, *solution, bound, run) : std::nullopt;
+    return solution.Solved() ? TellEnclosed(*rounded, solution, bound, run) : std::nullopt;
   };
   if (const auto word = WordNamed(problem, run.word)) {
     if (auto answer = enclose(*word)) return *std::move(answer);
-    if (auto exact = SolveWord(problem, *word, std::vector<Rational>(problem.rows(), 0)))
-      return TellExactly(run, std::move(exact->f), std::move(exact->a), run.word);
+    ExactAnswer exact = SolveWord(problem, *word, std::vector<Rational>(problem.rows(), 0));
+    if (exact.Solved()) return TellExactly(run, std::move(exact), run.word);
   }
   const ScaledProblem scaled = MakeScaled(problem, *rounded);
   std::vector<double> point;
@@ -317,8 +313,8 @@ CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& prob
     if (auto answer = enclose(*nearest)) return *std::move(answer);
   }
   std::set<ModeWord> tried;
-  NearbyWords near = SolveNear(problem, scaled, point, kWords, tried);
-  if (near.f) return TellExactly(run, *std::move(near.f), std::move(near.a), "");
+  ExactAnswer near = SolveNear(problem, scaled, point, kWords, tried);
+  if (near.Solved()) return TellExactly(run, std::move(near), "");
   return {};
 }
 

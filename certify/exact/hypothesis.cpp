@@ -15,13 +15,11 @@ namespace stiction {
 namespace {
 
 // Of v in K with A v = 0.
-HypothesisObstacle MakeObstacle(const ExactProblem& problem, ExactVector v) {
-  HypothesisObstacle obstacle{std::move(v), 0};
-  obstacle.value = problem.b.dot(obstacle.v);
-  STICTION_CHECK(
-      (problem.A * obstacle.v).isZero() && obstacle.value < 0 && !FindConeViolation(problem, obstacle.v),
-      "a linear program solved wrongly");
-  return obstacle;
+Obstacle MakeObstacle(const ExactProblem& problem, const ExactVector& v) {
+  const Rational value = problem.b.dot(v);
+  STICTION_CHECK((problem.A * v).isZero() && value < 0 && !FindConeViolation(problem, v),
+                 "a linear program solved wrongly");
+  return {v, value};
 }
 
 }  // namespace
@@ -65,7 +63,7 @@ ExactVector DualRest(const ExactProblem& problem, const ExactVector& y) {
 
 namespace {
 
-using Decision = std::variant<std::monostate, HypothesisProof, HypothesisObstacle>;
+using Decision = std::variant<std::monostate, ExactVector, Obstacle>;
 
 // Is there a v = edges x, x >= 0, with A v = 0 and b'v = -1? If not, a combination c of these equations has
 // c'A E - (multiple of b)'E <= 0 in every edge, which is y after scaling.
@@ -84,11 +82,11 @@ Decision SeekObstacle(const ExactProblem& problem, RationalPolygons& polygons) {
   if (const Point* x = std::get_if<Point>(&answer)) return MakeObstacle(problem, Combined(edges, *x, rows));
   const std::vector<Rational>& combination = std::get<Multipliers>(answer).values;
   STICTION_CHECK(combination.back() < 0, "a combination that shows nothing");
-  HypothesisProof proof{ExactVector(rows)};
-  for (int i = 0; i < rows; ++i) proof.y[i] = -combination[i] / combination.back();
-  const ExactVector rest = DualRest(problem, proof.y);
+  ExactVector y(rows);
+  for (int i = 0; i < rows; ++i) y[i] = -combination[i] / combination.back();
+  const ExactVector rest = DualRest(problem, y);
   const auto violation = FindDualConeViolation(problem, rest);
-  if (!violation) return proof;
+  if (!violation) return y;
   STICTION_CHECK(problem.dimension == 3, "a Farkas vector of a linear program is wrong: " + *violation);
   AddCorners(problem, EdgesOf::kWithinCone, rest, polygons);
   return {};
@@ -117,7 +115,7 @@ Decision SeekProof(const ExactProblem& problem, RationalPolygons& polygons) {
     for (int i = 0; i < rows; ++i) found[i] = (*x)[i];
     STICTION_CHECK(!FindDualConeViolation(problem, DualRest(problem, found)),
                    "a linear program solved wrongly");
-    return HypothesisProof{found};
+    return found;
   }
   for (int i = 0; i < rows; ++i) found[i] = -std::get<Multipliers>(answer).values[i];
   if (!FindConeViolation(problem, found)) return MakeObstacle(problem, found);

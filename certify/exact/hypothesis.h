@@ -31,21 +31,13 @@ std::optional<std::string> FindDualConeViolation(const ExactProblem& problem, co
 // b - A'y.
 ExactVector DualRest(const ExactProblem& problem, const ExactVector& y);
 
-struct HypothesisProof {
-  ExactVector y;  // b - A'y in K*
-};
-struct HypothesisObstacle {
-  ExactVector v;   // in K, A v = 0
-  Rational value;  // b'v < 0
-};
-
 bool HasSlidingContact(const ExactProblem& problem);
 
-// Which of the two it is, by exact linear programs; verified here. In space K and K* are cones on polygons
-// within (cones.h), whose corners are added where the answers of the programs point; then it may be neither:
-// where (H) hangs on a point of the circle that is not rational, or all that is found is at the edge of K.
-// Requires a problem without sliding contacts (otherwise InputError).
-std::variant<std::monostate, HypothesisProof, HypothesisObstacle> DecideHypothesis(const ExactProblem& problem);
+// y with b - A'y in K*, or v in K with A v = 0 and b'v < 0: by exact linear programs, verified here. In space K
+// and K* are cones on polygons within (cones.h), whose corners are added where the answers of the programs
+// point; then it may be neither: where (H) hangs on a point of the circle that is not rational, or all that is
+// found is at the edge of K. Requires a problem without sliding contacts (otherwise InputError).
+std::variant<std::monostate, ExactVector, Obstacle> DecideHypothesis(const ExactProblem& problem);
 
 }  // namespace stiction
 

@@ -26,8 +26,8 @@ Rational Product(const ScaledNumbers& x, const ScaledNumbers& y) {
 }  // namespace
 
 // Slopes of a quadratic function change by its second derivatives times the distance.
-std::optional<LeavingUnknown> FindLeaving(const std::vector<Quadratic<Rational>>& equations,
-                                          const ExactMatrix& inverse, const Rational& radius) {
+std::optional<std::pair<int, Rational>> FindLeaving(const std::vector<Quadratic<Rational>>& equations,
+                                                    const ExactMatrix& inverse, const Rational& radius) {
   const int size = static_cast<int>(equations.size());
   std::vector<ScaledNumbers> columns;
   for (int j = 0; j < size; ++j) {
@@ -44,7 +44,7 @@ std::optional<LeavingUnknown> FindLeaving(const std::vector<Quadratic<Rational>>
     }
     for (int j = 0; j < size; ++j) defects += abs(Product(row, columns[j]) - (i == j ? 1 : 0));
     const Rational distance = abs(move) + radius * defects + 2 * radius * radius * bend;
-    if (distance >= radius) return LeavingUnknown{i, distance};
+    if (distance >= radius) return std::pair(i, distance);
   }
   return std::nullopt;
 }

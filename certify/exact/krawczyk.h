@@ -11,6 +11,7 @@
 #define STICTION_CERTIFY_EXACT_KRAWCZYK_H_
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "certify/exact/properties.h"
@@ -42,17 +43,11 @@ struct Quadratic {
   }
 };
 
-// An unknown, and how far from x the test lets it come: as far as the radius of the box, or further.
-struct LeavingUnknown {
-  int unknown;
-  Rational distance;
-};
-
-// The first of them; empty if there is a zero no further than the radius from x in any unknown. `equations` at
-// x; inverse: Y, a row for each unknown. Only + - x and comparisons, numbers brought over common denominators
-// apart.
-std::optional<LeavingUnknown> FindLeaving(const std::vector<Quadratic<Rational>>& equations,
-                                          const ExactMatrix& inverse, const Rational& radius);
+// The first unknown that the test lets come as far from x as the radius of the box, or further, and how far;
+// empty if there is a zero no further than the radius from x in any unknown. `equations` at x; inverse: Y, a
+// row for each unknown. Only + - x and comparisons, numbers brought over common denominators apart.
+std::optional<std::pair<int, Rational>> FindLeaving(const std::vector<Quadratic<Rational>>& equations,
+                                                    const ExactMatrix& inverse, const Rational& radius);
 
 }  // namespace stiction
 

@@ -115,26 +115,29 @@ std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std:
 }
 
 // QP_solver is given twice the matrix of x'Dx, below its diagonal: that is M.
-QuadraticEnd Minimize(const QuadraticProgram& program) {
-  const int variables = static_cast<int>(program.c.size());
-  CGAL::Quadratic_program<CGAL::Gmpz> copy(CGAL::SMALLER, true, 0, false, 0);
+Answer<Rational> Minimize(const std::vector<std::vector<mpz_class>>& M, const std::vector<mpz_class>& c) {
+  const int variables = static_cast<int>(c.size());
+  CGAL::Quadratic_program<CGAL::Gmpz> program(CGAL::SMALLER, true, 0, false, 0);
   for (int i = 0; i < variables; ++i) {
-    copy.set_c(i, CGAL::Gmpz(program.c[i].get_mpz_t()));
-    for (int j = 0; j <= i; ++j) copy.set_d(i, j, CGAL::Gmpz(program.M[i][j].get_mpz_t()));
+    program.set_c(i, CGAL::Gmpz(c[i].get_mpz_t()));
+    for (int j = 0; j <= i; ++j) program.set_d(i, j, CGAL::Gmpz(M[i][j].get_mpz_t()));
   }
-  const auto solution = CGAL::solve_nonnegative_quadratic_program(copy, CGAL::Gmpz(), BlandsRule());
-  QuadraticEnd end;
-  end.iterations = solution.number_of_iterations();
-  end.bounded = solution.is_optimal();
-  STICTION_CHECK(end.bounded || solution.is_unbounded(), "x >= 0 is never infeasible");
-  if (end.bounded) {
+  const auto solution = CGAL::solve_nonnegative_quadratic_program(program, CGAL::Gmpz(), BlandsRule());
+  Answer<Rational> answer;
+  answer.counters = {{Counter::kIterations, solution.number_of_iterations()}};
+  if (solution.is_optimal()) {
+    answer.outcome = Outcome::kSolved;
+    answer.f.resize(variables);
     auto value = solution.variable_values_begin();
-    for (int j = 0; j < variables; ++j) end.x.push_back(FromCgal(*value++));
+    for (Rational& x : answer.f) x = FromCgal(*value++);
   } else {
+    STICTION_CHECK(solution.is_unbounded(), "f >= 0 is never infeasible");
+    answer.outcome = Outcome::kRay;
+    answer.ray.resize(variables);
     auto value = solution.unboundedness_certificate_begin();
-    for (int j = 0; j < variables; ++j) end.x.emplace_back(FromCgal(*value++));
+    for (Rational& x : answer.ray) x = Rational(FromCgal(*value++));
   }
-  return end;
+  return answer;
 }
 
 }  // namespace stiction

@@ -7,11 +7,11 @@
 #ifndef STICTION_CERTIFY_EXACT_LINEAR_SYSTEM_H_
 #define STICTION_CERTIFY_EXACT_LINEAR_SYSTEM_H_
 
-#include <cstdint>
 #include <variant>
 #include <vector>
 
 #include "corpus/rational.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
@@ -20,13 +20,17 @@ enum class Relation { kFree, kZero, kAtLeastZero, kAtMostZero };
 // Whether `value` stands in the relation to zero.
 bool Holds(Relation relation, const Rational& value);
 
-// Find x with x_j >= 0 where j is not free, and coefficients x + constant {=, >=, <=} 0 in every row.
+// coefficients x + constant {=, >=, <=} 0
+template <class Number>
+struct LinearRow {
+  std::vector<Number> coefficients;
+  Number constant;
+  Relation relation = Relation::kZero;
+};
+
+// Find x with x_j >= 0 where j is not free, and every row.
 struct LinearSystem {
-  struct Row {
-    std::vector<mpz_class> coefficients;
-    mpz_class constant;
-    Relation relation;
-  };
+  using Row = LinearRow<mpz_class>;
   std::vector<bool> free;  // by variable
   std::vector<Row> rows;
 };
@@ -43,30 +47,15 @@ std::variant<Point, Combination> Solve(const LinearSystem& system);
 
 // The same with rational coefficients: rows are scaled to integers, and the combination is of the rows as they
 // are.
-struct RationalRow {
-  std::vector<Rational> coefficients;
-  Rational constant;
-  Relation relation = Relation::kZero;
-};
+using RationalRow = LinearRow<Rational>;
 struct Multipliers {
   std::vector<Rational> values;  // as Combination
 };
 std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std::vector<RationalRow>& rows);
 
-// Minimize x'Mx / 2 + c'x over x >= 0. M: symmetric, positive semidefinite, by rows.
-struct QuadraticProgram {
-  std::vector<std::vector<mpz_class>> M;
-  std::vector<mpz_class> c;
-};
-
-struct QuadraticEnd {
-  bool bounded = true;
-  Point x;  // where it is least; if unbounded, a direction x >= 0 with M x = 0 and c'x < 0
-  std::int64_t iterations = 0;
-};
-
-// Bland's rule here too. Requires a variable.
-QuadraticEnd Minimize(const QuadraticProgram& program);
+// Minimize f'Mf / 2 + c'f over f >= 0: solved, or ray, which is >= 0 with M ray = 0 and c'ray < 0. Counter:
+// iterations. Bland's rule here too. Requires M symmetric and positive semidefinite, a row at least.
+Answer<Rational> Minimize(const std::vector<std::vector<mpz_class>>& M, const std::vector<mpz_class>& c);
 
 }  // namespace stiction
 

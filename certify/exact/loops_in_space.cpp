@@ -339,14 +339,14 @@ std::vector<int> Moving(const Image& image) {
 }
 
 // Where a state could recur: `image` is what the period makes of the box.
-std::optional<LoopFault> FaultOfRecurrence(const FineProblem& problem, const StateInSpace& state,
-                                           const LoopInSpace& loop, const Image& image) {
+std::optional<Rejected> FaultOfRecurrence(const FineProblem& problem, const StateInSpace& state,
+                                          const RunInSpace& loop, const Image& image) {
   const std::vector<int> moving = Moving(image);
   for (const int i : moving) {
     Rational spread = 0;
     for (int k = 0; k < loop.radii.size(); ++k) spread += SteepestOf(image.x[i], k);
     if (spread >= loop.radii[i])
-      return LoopFault{fmt::format("radii[{}]", i), ToString(loop.radii[i]), "a period that contracts"};
+      return Rejected{fmt::format("radii[{}]", i), ToString(loop.radii[i]), "a period that contracts"};
   }
   if (!IsInjective(image, moving)) Unsure<FineInterval>::Refuse();
   const Coordinates first = problem.memory().CoordinatesOf(state, loop.charts);
@@ -356,15 +356,15 @@ std::optional<LoopFault> FaultOfRecurrence(const FineProblem& problem, const Sta
     return x.high < y.low || y.high < x.low;
   };
   if (std::ranges::any_of(moving, moves)) return std::nullopt;
-  return LoopFault{"start", std::to_string(loop.start), "a state that the period surely moves"};
+  return Rejected{"start", std::to_string(loop.start), "a state that the period surely moves"};
 }
 
 // Where a contact could not turn away in a punctured box, but at its fixed point.
-std::optional<LoopFault> FaultOfTurnings(const FineProblem& problem, const StateInSpace& state,
-                                         const LoopInSpace& loop, const Image& image) {
+std::optional<Rejected> FaultOfTurnings(const FineProblem& problem, const StateInSpace& state,
+                                        const RunInSpace& loop, const Image& image) {
   const std::vector<int> moving = Moving(image);
   if (moving.size() != 1)
-    return LoopFault{"radii", fmt::format("{} coordinates that move", moving.size()), "1 in a punctured box"};
+    return Rejected{"radii", fmt::format("{} coordinates that move", moving.size()), "1 in a punctured box"};
   const std::vector<bool> ends = problem.TurningsThatEnd(state, BoxAround(loop.centre, loop.radii), loop.charts,
                                                          loop.period, image.word.size());
   if (ends.size() != image.asides.size()) Unsure<FineInterval>::Refuse();
@@ -372,7 +372,7 @@ std::optional<LoopFault> FaultOfTurnings(const FineProblem& problem, const State
     const FineInterval& aside = image.asides[k];
     if (Unsure<FineInterval>::TellsSign(aside)) continue;
     if (!ends[k] || Sign(SlopeOf(aside, moving[0])) == 0)
-      return LoopFault{"kind", "punctured", "contacts that turn away but at the fixed point"};
+      return Rejected{"kind", "punctured", "contacts that turn away but at the fixed point"};
   }
   return FaultOfRecurrence(problem, state, loop, image);
 }
@@ -400,7 +400,7 @@ class LoopSearch {
   LoopSearch(const ExactProblem& problem, const Policy& policy, const Limits& limits, Effort effort)
       : effort_(effort), bits_(effort.bits), problem_(problem, policy, limits) {}
 
-  std::optional<LoopInSpace> Find() {
+  std::optional<RunInSpace> Find() {
     Walk walk = problem_.Begin();
     if (auto states = FindStates(walk)) return states;
     word_ = walk.word();
@@ -429,14 +429,14 @@ class LoopSearch {
   };
 
   // The run from f = 0, until it ends, is unsure, or repeats the sets of a state that remembers nothing.
-  std::optional<LoopInSpace> FindStates(Walk& walk) {
+  std::optional<RunInSpace> FindStates(Walk& walk) {
     try {
       while (static_cast<int>(tops_.size()) < effort_.turns) {
         Top top = {walk.state(), walk.drives(), walk.word().size(), 0};
         top.remembers = problem_.memory().Of(top.state).size();
         for (const Top& earlier : tops_) {
           if (top.remembers == 0 && problem_.memory().Same(earlier.state, top.state))
-            return LoopInSpace{
+            return RunInSpace{
                 bits_of_proof(), earlier.drives, top.drives - earlier.drives, walk.word(), {}, {}, {}};
         }
         tops_.push_back(std::move(top));
@@ -527,7 +527,7 @@ class LoopSearch {
 
   // Boxes of all sizes, from large to small, of sides in proportion to the weights that the derivatives ask
   // for.
-  std::optional<LoopInSpace> FindBox(const Top& top, std::int64_t period) {
+  std::optional<RunInSpace> FindBox(const Top& top, std::int64_t period) {
     const std::vector<int> charts = problem_.memory().Charts(top.state);
     ExactVector fixed;
     try {
@@ -551,8 +551,8 @@ class LoopSearch {
     return std::nullopt;
   }
 
-  std::optional<LoopInSpace> FindBoxOfSize(const Top& top, const std::vector<int>& charts, std::int64_t period,
-                                           const ExactVector& fixed, int places) {
+  std::optional<RunInSpace> FindBoxOfSize(const Top& top, const std::vector<int>& charts, std::int64_t period,
+                                          const ExactVector& fixed, int places) {
     const int size = static_cast<int>(fixed.size());
     const ExactVector centre =
         fixed.unaryExpr([&](const Rational& x) { return OfPlaces(x, places + kMoreBitsOfCentre); });
@@ -581,13 +581,13 @@ class LoopSearch {
   }
 
   // From the first state of the run that is in the box.
-  std::optional<LoopInSpace> Entered(const Top& like, const std::vector<int>& charts, std::int64_t period,
-                                     const ExactVector& centre, const ExactVector& radii,
-                                     const Image& image) const {
+  std::optional<RunInSpace> Entered(const Top& like, const std::vector<int>& charts, std::int64_t period,
+                                    const ExactVector& centre, const ExactVector& radii,
+                                    const Image& image) const {
     for (const Top& top : tops_) {
       if (!problem_.memory().Same(top.state, like.state)) continue;
       if (!IsInBox(problem_.memory().CoordinatesOf(top.state, charts), centre, radii)) continue;
-      LoopInSpace loop = {bits_of_proof(), top.drives, period, {}, charts, centre, radii};
+      RunInSpace loop = {bits_of_proof(), top.drives, period, {}, charts, centre, radii};
       loop.punctured = !image.TellsTurnings();
       if (loop.punctured && FaultOfTurnings(problem_, top.state, loop, image)) return std::nullopt;
       loop.word.assign(word_.begin(), word_.begin() + static_cast<std::ptrdiff_t>(top.steps));
@@ -611,7 +611,7 @@ class LoopSearch {
 
 // ---- Checking a proof --------------------------------------------------------------------------
 
-LoopFault OtherStep(const Steps& stated, const Steps& taken, std::size_t first) {
+Rejected OtherStep(const Steps& stated, const Steps& taken, std::size_t first) {
   for (std::size_t k = 0; k < taken.size(); ++k) {
     if (first + k >= stated.size())
       return {"word", fmt::format("{} steps", stated.size()), "more: it does not end there"};
@@ -625,38 +625,38 @@ bool Stands(const Steps& stated, const Steps& taken, std::size_t first) {
          std::equal(taken.begin(), taken.end(), stated.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-std::optional<LoopFault> FaultOfStates(const FineProblem& problem, Walk& walk, const LoopInSpace& loop) {
+std::optional<Rejected> FaultOfStates(const FineProblem& problem, Walk& walk, const RunInSpace& loop) {
   const StateInSpace state = walk.state();
   if (!problem.memory().Of(state).empty())
-    return LoopFault{"start", std::to_string(loop.start), "a state that remembers nothing but its sets"};
+    return Rejected{"start", std::to_string(loop.start), "a state that remembers nothing but its sets"};
   problem.Begin().StandAt(problem.memory().With(state, {}, {}));  // whose matrix is regular
   walk.GoTo(loop.start + loop.period, loop.word.size());
   if (!Stands(loop.word, walk.word(), 0)) return OtherStep(loop.word, walk.word(), 0);
   if (!problem.memory().Same(walk.state(), state) || walk.drives() != loop.start + loop.period)
-    return LoopFault{"period", std::to_string(loop.period), "drives to the same sets"};
+    return Rejected{"period", std::to_string(loop.period), "drives to the same sets"};
   return std::nullopt;
 }
 
-std::optional<LoopFault> FaultOfPlace(const FineProblem& problem, const StateInSpace& state,
-                                      const LoopInSpace& loop) {
+std::optional<Rejected> FaultOfPlace(const FineProblem& problem, const StateInSpace& state,
+                                     const RunInSpace& loop) {
   const std::vector<Remembered> memory = problem.memory().Of(state);
   const auto has = [&](auto count) { return static_cast<std::size_t>(count) == memory.size(); };
   if (!has(loop.charts.size()) || !has(loop.centre.size()) || !has(loop.radii.size()))
-    return LoopFault{"radii", fmt::format("{} coordinates", loop.radii.size()), std::to_string(memory.size())};
+    return Rejected{"radii", fmt::format("{} coordinates", loop.radii.size()), std::to_string(memory.size())};
   for (std::size_t k = 0; k < memory.size(); ++k) {
     const int chart = loop.charts[k];
     if (chart < -1 || chart > 1 || (chart == 0) != (memory[k].row >= 0))
-      return LoopFault{fmt::format("charts[{}]", k), std::to_string(chart),
-                       "1 or -1 of a direction, 0 of a force"};
+      return Rejected{fmt::format("charts[{}]", k), std::to_string(chart),
+                      "1 or -1 of a direction, 0 of a force"};
     if (loop.radii[static_cast<int>(k)] <= 0)
-      return LoopFault{fmt::format("radii[{}]", k), ToString(loop.radii[static_cast<int>(k)]), "a number > 0"};
+      return Rejected{fmt::format("radii[{}]", k), ToString(loop.radii[static_cast<int>(k)]), "a number > 0"};
   }
   if (!IsInBox(problem.memory().CoordinatesOf(state, loop.charts), loop.centre, loop.radii))
-    return LoopFault{"centre", ToString(loop.centre[0]), "a box in which the state at start is"};
+    return Rejected{"centre", ToString(loop.centre[0]), "a box in which the state at start is"};
   return std::nullopt;
 }
 
-std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk, const LoopInSpace& loop) {
+std::optional<Rejected> FaultOfBox(const FineProblem& problem, const Walk& walk, const RunInSpace& loop) {
   const StateInSpace state = walk.state();
   if (auto fault = FaultOfPlace(problem, state, loop)) return fault;
   const std::size_t before = walk.word().size(), steps = loop.word.size() - before;
@@ -667,29 +667,29 @@ std::optional<LoopFault> FaultOfBox(const FineProblem& problem, const Walk& walk
     if (!Stands(loop.word, of.word, before)) return OtherStep(loop.word, of.word, before);
   }
   if (const auto leaves = LeavesBox(middle, image, loop.centre, loop.radii))
-    return LoopFault{fmt::format("radii[{}]", leaves->first), ToString(loop.radii[leaves->first]),
-                     fmt::format("{:.3g}, as far as the period leads", ToDouble(leaves->second))};
+    return Rejected{fmt::format("radii[{}]", leaves->first), ToString(loop.radii[leaves->first]),
+                    fmt::format("{:.3g}, as far as the period leads", ToDouble(leaves->second))};
   if (loop.punctured) return FaultOfTurnings(problem, state, loop, image);
   if (!image.TellsTurnings()) Unsure<FineInterval>::Refuse();
   return loop.endless ? FaultOfRecurrence(problem, state, loop, image) : std::nullopt;
 }
 
 // Fixed places take a number that is large beside 2^bits for one that is hardly known.
-std::optional<LoopFault> FaultOfNumbers(const ExactProblem& problem, int bits) {
+std::optional<Rejected> FaultOfNumbers(const ExactProblem& problem, int bits) {
   const Rational most(mpz_class(mpz_class(1) << bits / 4));
   const auto is_large = [&most](const Rational& x) { return abs(x) >= most; };
   bool large = std::any_of(problem.A.data(), problem.A.data() + problem.A.size(), is_large) ||
                std::any_of(problem.b.data(), problem.b.data() + problem.b.size(), is_large);
   for (const Contact<Rational>& contact : problem.contacts) large |= is_large(contact.mu);
   if (!large) return std::nullopt;
-  return LoopFault{"bits", std::to_string(bits), "more: numbers of A, b and mu are below 2^(bits / 4)"};
+  return Rejected{"bits", std::to_string(bits), "more: numbers of A, b and mu are below 2^(bits / 4)"};
 }
 
 }  // namespace
 
-std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
-                                       const LoopInSpace& loop) {
-  if (loop.endless && !loop.IsBox()) return LoopFault{"kind", "states", "box"};
+std::optional<Rejected> FindLoopFault(const ExactProblem& problem, const Policy& policy,
+                                      const RunInSpace& loop) {
+  if (loop.endless && !loop.IsBox()) return Rejected{"kind", "states", "box"};
   if (auto fault = FaultOfNumbers(problem, loop.bits)) return fault;
   const FineBits bits(loop.bits);
   const FineProblem fine(problem, policy, {});
@@ -700,20 +700,19 @@ std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy
     if (word.size() > loop.word.size() || !std::equal(word.begin(), word.end(), loop.word.begin()))
       return OtherStep(loop.word, word, 0);
     if (walk.drives() != loop.start)
-      return LoopFault{"start", std::to_string(loop.start),
-                       "as many drives as end in a state of the main loop"};
+      return Rejected{"start", std::to_string(loop.start), "as many drives as end in a state of the main loop"};
     return loop.IsBox() ? FaultOfBox(fine, walk, loop) : FaultOfStates(fine, walk, loop);
   } catch (const UnsureComparison&) {
-    return LoopFault{"bits", std::to_string(loop.bits), "a run of which every sign is told"};
+    return Rejected{"bits", std::to_string(loop.bits), "a run of which every sign is told"};
   } catch (const RunEnded& end) {
-    return LoopFault{"word", end.how, "a run that does not end"};
+    return Rejected{"word", end.how, "a run that does not end"};
   }
 }
 
-std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
-                                            const Limits& limits) {
+std::optional<RunInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
+                                           const Limits& limits) {
   for (const Effort effort : kEfforts) {
-    std::optional<LoopInSpace> loop;
+    std::optional<RunInSpace> loop;
     bool hopeless = false, contracts = false;
     {
       LoopSearch search(problem, policy, limits, effort);
@@ -727,17 +726,16 @@ std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const P
   return std::nullopt;
 }
 
-std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
-                                               const Limits& limits) {
-  std::optional<LoopInSpace> loop = ProveLoopInSpace(problem, policy, limits);
+std::optional<RunInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
+                                              const Limits& limits) {
+  std::optional<RunInSpace> loop = ProveLoopInSpace(problem, policy, limits);
   if (!loop || !loop->IsBox()) return std::nullopt;
   loop->endless = true;
   if (FindLoopFault(problem, policy, *loop)) return std::nullopt;
   return loop;
 }
 
-std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy,
-                                      const RayInSpace& ray) {
+std::optional<Rejected> FindRayFault(const ExactProblem& problem, const Policy& policy, const RunInSpace& ray) {
   if (auto fault = FaultOfNumbers(problem, ray.bits)) return fault;
   const FineBits bits(ray.bits);
   const FineProblem fine(problem, policy, {});
@@ -746,19 +744,19 @@ std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy&
   try {
     while (walk.word().size() <= ray.word.size()) walk.TakeTurn();
   } catch (const UnsureComparison&) {
-    return LoopFault{"bits", std::to_string(ray.bits), "a run of which every sign is told"};
+    return Rejected{"bits", std::to_string(ray.bits), "a run of which every sign is told"};
   } catch (const RunEnded& ended) {
     end = ended.how;
   }
   if (!Stands(ray.word, walk.word(), 0)) return OtherStep(ray.word, walk.word(), 0);
-  if (end != Name(Outcome::kRay)) return LoopFault{"word", end, "a run that ends in a step without a limit"};
+  if (end != Name(Outcome::kRay)) return Rejected{"word", end, "a run that ends in a step without a limit"};
   return std::nullopt;
 }
 
-std::optional<RayInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
+std::optional<RunInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
                                           const Limits& limits) {
   for (const Effort effort : std::span(kEfforts).first(2)) {
-    std::optional<RayInSpace> ray;
+    std::optional<RunInSpace> ray;
     try {
       const FineBits bits(effort.bits);
       const FineProblem fine(problem, policy, limits);
@@ -767,7 +765,7 @@ std::optional<RayInSpace> ProveRayInSpace(const ExactProblem& problem, const Pol
         for (int turn = 0; turn < effort.turns; ++turn) walk.TakeTurn();
       } catch (const RunEnded& end) {
         if (end.how != Name(Outcome::kRay)) return std::nullopt;
-        ray = {effort.bits / 2 * 3, walk.word()};
+        ray = {.bits = effort.bits / 2 * 3, .word = walk.word()};
       }
     } catch (const UnsureComparison&) {
       continue;

@@ -32,49 +32,42 @@
 #include <vector>
 
 #include "certify/exact/properties.h"
+#include "certify/exact/rejected.h"
 #include "corpus/exact_problem.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
 
-struct LoopInSpace {
+// What is stated of a run: bits and word, and where it loops the rest.
+struct RunInSpace {
   int bits = 0;
   std::int64_t start = 0, period = 0;  // in drives; the first state of the main loop after so many
-  std::vector<std::string> word;       // every step from f = 0 to the end of one period
+  // Every step from f = 0 to the end of one period, or to the one that nothing limits.
+  std::vector<std::string> word = {};
   // Of a box, a number for each coordinate; empty for states.
-  std::vector<int> charts;  // 0: a force; 1, -1: a direction, or its opposite, by the tangent of half its angle
-  ExactVector centre, radii;
+  std::vector<int> charts =
+      {};  // 0: a force; 1, -1: a direction, or its opposite, by the tangent of half its angle
+  ExactVector centre = {}, radii = {};
   bool punctured = false;  // a box without the fixed point
   bool endless = false;    // whether it says that no state recurs
 
   bool IsBox() const { return radii.size() > 0; }
 };
 
-// A run that ends in an infinite step.
-struct RayInSpace {
-  int bits = 0;
-  std::vector<std::string> word;  // every step from f = 0 to the one that nothing limits
-};
-
-// What is wrong with a proof.
-struct LoopFault {
-  std::string place, found, expected;
-};
-
-// What both require: dimension 3, frictionless and static contacts, PublishedReadsInSpace(policy).
+// What all require: dimension 3, frictionless and static contacts, PublishedReadsInSpace(policy).
 
 // Empty if the run ends, or if no proof was found. What is returned has no fault.
-std::optional<LoopInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
-                                            const Limits& limits);
+std::optional<RunInSpace> ProveLoopInSpace(const ExactProblem& problem, const Policy& policy,
+                                           const Limits& limits);
 // The same, of a box in which no state recurs.
-std::optional<LoopInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
-                                               const Limits& limits);
-std::optional<LoopFault> FindLoopFault(const ExactProblem& problem, const Policy& policy,
-                                       const LoopInSpace& loop);
+std::optional<RunInSpace> ProveEndlessInSpace(const ExactProblem& problem, const Policy& policy,
+                                              const Limits& limits);
+std::optional<Rejected> FindLoopFault(const ExactProblem& problem, const Policy& policy,
+                                      const RunInSpace& loop);
 
-std::optional<RayInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
+std::optional<RunInSpace> ProveRayInSpace(const ExactProblem& problem, const Policy& policy,
                                           const Limits& limits);
-std::optional<LoopFault> FindRayFault(const ExactProblem& problem, const Policy& policy, const RayInSpace& ray);
+std::optional<Rejected> FindRayFault(const ExactProblem& problem, const Policy& policy, const RunInSpace& ray);
 
 }  // namespace stiction
 

@@ -10,7 +10,6 @@
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/newton_bodies.h"
 #include "certify/exact/qp.h"
-#include "certify/exact/qp_ipopt.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
 #include "corpus/rounded.h"
@@ -34,45 +33,21 @@ Answer<Rational> RunOnPolygons(const ExactProblem& problem, const Request& reque
   return SolveInSpace(problem, request, kEngine);
 }
 
-// The first solution in the order of the mode words, or that there is none.
-Answer<Rational> RunEnumeration(const ExactProblem& problem, const Request& request) {
-  Answer<Rational> answer;
-  if (request.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
-    answer.reason = kStopped;
-    return answer;
-  }
-  EnumerationOptions enumeration;
-  enumeration.first_solution_only = true;
-  enumeration.programs = std::min(request.limits.pivots, kAutomaticPrograms);
-  enumeration.progress = [&request](const EnumerationProgress&) { return !request.limits.Stopped(); };
-  const Enumeration modes = EnumerateModes(problem, enumeration);
-  answer.counters = {{Counter::kPrefixes, modes.prefixes}, {Counter::kPrograms, modes.programs}};
-  if (!modes.solutions.empty()) {
-    answer.outcome = Outcome::kSolved;
-    answer.f = modes.solutions.front().f;
-  } else if (modes.ProvesNoSolution()) {
-    answer.outcome = Outcome::kNoSolution;
-    answer.reason = "no mode of the contacts has a solution; certify writes the proof";
-  } else if (modes.end == EnumerationEnd::kLimit) {
-    answer.outcome = Outcome::kLimit;
-    answer.reason = "programs";
-  } else {
-    answer.reason = kStopped;
-  }
-  return answer;
+// The request, with a budget of linear programs.
+Request OfPrograms(Request request, std::int64_t programs) {
+  request.limits.programs = std::min({request.limits.programs, request.limits.pivots, programs});
+  return request;
 }
 
-// That there is no solution, or nothing.
-Answer<Rational> RunRefutation(const ExactProblem& problem, const Request& request) {
-  EnumerationOptions enumeration;
-  enumeration.programs = std::min(request.limits.pivots, kAutomaticProgramsInSpace);
-  enumeration.progress = [&request](const EnumerationProgress&) { return !request.limits.Stopped(); };
+Counters CountersOf(const Enumeration& modes) {
+  return {{Counter::kPrefixes, modes.prefixes}, {Counter::kPrograms, modes.programs}};
+}
+
+// Of one that found no solution.
+Answer<Rational> AnswerOf(const Enumeration& modes) {
   Answer<Rational> answer;
-  answer.law = request.law;
+  answer.counters = CountersOf(modes);
   answer.reason = kStopped;
-  if (request.limits.Stopped()) return answer;
-  const Enumeration modes = RefuteInSpace(problem, enumeration);
-  answer.counters = {{Counter::kPrefixes, modes.prefixes}, {Counter::kPrograms, modes.programs}};
   if (modes.ProvesNoSolution()) {
     answer.outcome = Outcome::kNoSolution;
     answer.reason = "no mode of the contacts has a solution; certify writes the proof";
@@ -85,29 +60,41 @@ Answer<Rational> RunRefutation(const ExactProblem& problem, const Request& reque
   return answer;
 }
 
+// The first solution in the order of the mode words, or that there is none.
+Answer<Rational> RunEnumeration(const ExactProblem& problem, const Request& request) {
+  Answer<Rational> answer;
+  if (request.limits.Stopped()) {  // while `auto` ran another method; the first program alone can take minutes
+    answer.reason = kStopped;
+    return answer;
+  }
+  const Enumeration modes = EnumerateModes(problem, OfPrograms(request, kAutomaticPrograms), UntilSolved);
+  if (modes.solutions.empty()) return AnswerOf(modes);
+  answer.outcome = Outcome::kSolved;
+  answer.f = modes.solutions.front().f;
+  answer.counters = CountersOf(modes);
+  return answer;
+}
+
+// That there is no solution, or nothing.
+Answer<Rational> RunRefutation(const ExactProblem& problem, const Request& request) {
+  Answer<Rational> answer;
+  answer.reason = kStopped;
+  if (!request.limits.Stopped())
+    answer = AnswerOf(RefuteInSpace(problem, OfPrograms(request, kAutomaticProgramsInSpace)));
+  answer.law = request.law;
+  return answer;
+}
+
 // Ipopt proposes, exact arithmetic decides.
 Answer<Rational> RunIpopt(const ExactProblem& problem, const Request&) {
-  IpoptProposer proposer;
-  ProposalStatistics statistics;
-  auto f = proposer.ProposeSolution(problem, ProposalOptions{}, statistics);
-  Answer<Rational> answer;
-  answer.counters = {{Counter::kStarts, statistics.starts},
-                     {Counter::kIterations, statistics.iterations},
-                     {Counter::kWords, statistics.words}};
-  if (f) {
-    answer.outcome = Outcome::kSolved;
-    answer.f = *std::move(f);
-  } else {
-    answer.reason = "no point that Ipopt proposed led to a solution";
-  }
-  return answer;
+  return IpoptProposer().ProposeSolution(problem);
 }
 
 // A solution in the cells of forces over doubles: those of the fast method, whose limits are reached by many,
 // or of proximal points, whose limits are reached by few. None where doubles do not hold the problem.
-NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
+Answer<Rational> SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
   constexpr int kWords = 16;
-  NearbyWords near;
+  Answer<Rational> near;
   std::set<ModeWord> tried;
   try {
     const ContactProblem<double> rounded = Rounded<double>(problem);
@@ -115,12 +102,12 @@ NearbyWords SolveNearDoubles(const ExactProblem& problem, const Limits& limits) 
     const auto look_near = [&](const Eigen::VectorXd& f) {
       std::vector<double> point;
       for (const double x : f) point.push_back(x / ToDouble(scaled.force));
-      NearbyWords found = SolveNear(problem, scaled, point, kWords, tried);
-      found.words += near.words;
+      Answer<Rational> found = SolveNear(problem, scaled, point, kWords, tried);
+      found.counters += near.counters;
       near = std::move(found);
     };
     look_near(Solve(rounded, {.method = "fast", .limits = limits}).f);
-    if (near.f) return near;
+    if (near.Solved()) return near;
     ProximalNewton<double> proximal({.limits = limits}, 1e-13);
     proximal.Run({rounded.dimension, rounded.contacts, rounded.A.sparseView(), rounded.b});
     look_near(proximal.f());
@@ -143,13 +130,11 @@ Answer<Rational> RunPublishedBriefly(const ExactProblem& problem, Request reques
 Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& request) {
   Counters counters;
   const auto run_cells = [&] {
-    NearbyWords near = SolveNearDoubles(problem, request.limits);
-    Answer<Rational> answer;
-    counters = {{Counter::kWords, near.words}, {Counter::kPublished, !near.f}, {Counter::kFallbacks, 0}};
-    if (!near.f) return answer;
-    answer.outcome = Outcome::kSolved;
-    answer.f = *std::move(near.f);
-    return answer;
+    Answer<Rational> near = SolveNearDoubles(problem, request.limits);
+    counters = {{Counter::kWords, near.counters[Counter::kWords]},
+                {Counter::kPublished, !near.Solved()},
+                {Counter::kFallbacks, 0}};
+    return near;
   };
   const auto run_complete = [&] {
     ++counters[Counter::kFallbacks];
@@ -171,10 +156,9 @@ Answer<Rational> RunFastInSpace(const ExactProblem& problem, const Request& requ
 Answer<Rational> RunQp(const ExactProblem& problem, const Request&) { return SolveQp(problem); }
 
 Answer<double> RunQpByIpopt(const ContactProblem<double>& problem, const Request&) {
-  IpoptProposer proposer;
   ExactProblem normals = Unrounded(problem);
   normals.dimension = 2;  // without friction space is the plane
-  return SolveQpByIpopt(normals, proposer);
+  return IpoptProposer().ProposePoint(normals);
 }
 
 // ---- The table ---------------------------------------------------------------------------------

@@ -97,11 +97,12 @@ std::vector<std::vector<RankedMode>> RankModes(const ExactProblem& problem, cons
     auto& modes = ranked.emplace_back();
     for (const Mode mode : ModesOf(contact)) {
       const auto& [kind, mu, slip] = scaled.numbers.contacts[i];
-      modes.push_back({mode, ConditionsBroken(mode, mu, slip[0], f[row], rough ? f[row + 1] : 0, a[row],
-                                              rough ? a[row + 1] : 0)});
+      modes.emplace_back(ConditionsBroken(mode, mu, slip[0], f[row], rough ? f[row + 1] : 0, a[row],
+                                          rough ? a[row + 1] : 0),
+                         mode);
     }
-    std::stable_sort(modes.begin(), modes.end(), [](auto& x, auto& y) { return x.broken < y.broken; });
-    while (modes.size() > 1 && modes.back().broken > kNear) modes.pop_back();
+    std::ranges::stable_sort(modes, {}, &RankedMode::first);
+    while (modes.size() > 1 && modes.back().first > kNear) modes.pop_back();
     row += rough ? 2 : 1;
   }
   return ranked;
@@ -119,7 +120,7 @@ std::optional<ModeWord> WordsByRank::Next() {
   const std::vector<int> ranks = waiting_.top().second;
   waiting_.pop();
   ModeWord word;
-  for (std::size_t i = 0; i < ranks.size(); ++i) word.push_back(modes_[i][ranks[i]].mode);
+  for (std::size_t i = 0; i < ranks.size(); ++i) word.push_back(modes_[i][ranks[i]].second);
   // Every word is reached once: by raising ranks from the first contact to the last.
   for (std::size_t i = ranks.size(); i-- > 0;) {
     if (ranks[i] + 1 < static_cast<int>(modes_[i].size())) {
@@ -134,7 +135,7 @@ std::optional<ModeWord> WordsByRank::Next() {
 
 void WordsByRank::Push(std::vector<int> ranks) {
   double sum = 0;
-  for (std::size_t i = 0; i < ranks.size(); ++i) sum += modes_[i][ranks[i]].broken;
+  for (std::size_t i = 0; i < ranks.size(); ++i) sum += modes_[i][ranks[i]].first;
   waiting_.emplace(sum, std::move(ranks));
 }
 
@@ -200,8 +201,8 @@ struct WordEquations {
 
 }  // namespace
 
-std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord& word,
-                                    const std::vector<Rational>& near) {
+Answer<Rational> SolveWord(const ExactProblem& problem, const ModeWord& word,
+                           const std::vector<Rational>& near) {
   const WordEquations<Rational> equations(problem, word);
   const int size = static_cast<int>(equations.unknowns.size());
   ExactVector guess(size);
@@ -209,13 +210,15 @@ std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord&
   const auto solve = size < kLiftedSize ? &SolveEquations : &SolveByLifting;
   for (const ExactVector& free : {ExactVector(ExactVector::Zero(size)), guess}) {
     const auto x = solve(equations.M, equations.right, free);
-    if (!x) return std::nullopt;
-    SolvedWord solution;
+    if (!x) break;
+    Answer<Rational> solution;
     solution.f = equations.Forces(problem.rows(), *x);
     solution.a = Accelerations(problem, solution.f);
-    if (!FindViolation(problem, solution.f, solution.a)) return solution;
+    if (FindViolation(problem, solution.f, solution.a)) continue;
+    solution.outcome = Outcome::kSolved;
+    return solution;
   }
-  return std::nullopt;
+  return {};
 }
 
 // ---- The same, enclosed --------------------------------------------------------------------------
@@ -223,8 +226,8 @@ std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord&
 namespace {
 
 // Whether whatever the ends of f and a enclose meets the law in the mode, whose equations it solves.
-bool MeetsMode(const Contact<NarrowBall>& contact, Mode mode, int row, const EnclosedSolution::Vector& f,
-               const EnclosedSolution::Vector& a) {
+bool MeetsMode(const Contact<NarrowBall>& contact, Mode mode, int row, const Answer<NarrowBall>::Vector& f,
+               const Answer<NarrowBall>::Vector& a) {
   if (mode == kHold) return true;
   const auto may_be_negative = [](const NarrowBall& x) { return !x.TellsSign() || x.Sign() < 0; };
   if (may_be_negative(mode == kBreak ? a[row] : f[row])) return false;
@@ -236,7 +239,7 @@ bool MeetsMode(const Contact<NarrowBall>& contact, Mode mode, int row, const Enc
 }
 
 bool MeetsWord(const ContactProblem<NarrowBall>& problem, const ModeWord& word,
-               const EnclosedSolution& solution) {
+               const Answer<NarrowBall>& solution) {
   int row = 0;
   for (std::size_t i = 0; i < word.size(); ++i) {
     if (!MeetsMode(problem.contacts[i], word[i], row, solution.f, solution.a)) return false;
@@ -253,31 +256,34 @@ ContactProblem<NarrowBall> AroundRounded(const ContactProblem<double>& rounded) 
 
 }  // namespace
 
-std::optional<EnclosedSolution> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word) {
+Answer<NarrowBall> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word) {
   const ContactProblem<NarrowBall> problem = AroundRounded(rounded);
   const WordEquations<NarrowBall> equations(problem, word);
   const int size = static_cast<int>(equations.unknowns.size()), rows = problem.rows();
-  if (size > kEnclosedSize) return std::nullopt;
-  EnclosedSolution::Matrix augmented(size, size + 1);
+  if (size > kEnclosedSize) return {};
+  ContactProblem<NarrowBall>::Matrix augmented(size, size + 1);
   augmented.leftCols(size) = equations.M;
   augmented.col(size) = equations.right;
-  EnclosedSolution::Vector x(size);
+  Answer<NarrowBall>::Vector x(size);
   try {
     Elimination<NarrowBall> elimination;
     elimination.Assign(augmented);
     elimination.Run(size, size, size + 1);
-    if (elimination.rank() < size) return std::nullopt;
+    if (elimination.rank() < size) return {};
     elimination.BackSubstitute(size);
     for (int j = 0; j < size; ++j) x[j] = elimination.Solution(j);
   } catch (const UnsureSign&) {
-    return std::nullopt;
+    return {};
   }
-  EnclosedSolution solution = {equations.Forces(rows, x), problem.b};
+  Answer<NarrowBall> solution;
+  solution.f = equations.Forces(rows, x);
+  solution.a = problem.b;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < rows; ++j)
       if (!IsSurelyZero(solution.f[j])) solution.a[i] += problem.A(i, j) * solution.f[j];
   for (const auto& unknown : equations.unknowns) solution.a[unknown.row] = NarrowBall();
-  return MeetsWord(problem, word, solution) ? std::optional(std::move(solution)) : std::nullopt;
+  if (MeetsWord(problem, word, solution)) solution.outcome = Outcome::kSolved;
+  return solution;
 }
 
 // ---- Words near a point, solved ------------------------------------------------------------------
@@ -295,26 +301,23 @@ std::vector<Rational> Shortened(const std::vector<double>& f, const Rational& un
 
 }  // namespace
 
-NearbyWords SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
-                      int words, std::set<ModeWord>& tried) {
-  if (static_cast<int>(f.size()) != problem.rows()) return {};  // a run that could not begin
-  if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x * kPlaces); })) return {};
+Answer<Rational> SolveNear(const ExactProblem& problem, const ScaledProblem& scaled,
+                           const std::vector<double>& f, int words, std::set<ModeWord>& tried) {
+  Answer<Rational> answer;
+  std::int64_t solved = 0;
+  if (static_cast<int>(f.size()) != problem.rows()) return answer;  // a run that could not begin
+  if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x * kPlaces); })) return answer;
   const std::vector<Rational> near = Shortened(f, scaled.force);
   WordsByRank ranked(problem, scaled, f);
-  NearbyWords result;
-  for (int count = 0; count < words; ++count) {
+  for (int count = 0; count < words && !answer.Solved(); ++count) {
     const auto word = ranked.Next();
     if (!word) break;
     if (!tried.insert(*word).second) continue;
-    ++result.words;
-    auto solution = SolveWord(problem, *word, near);
-    if (!solution) continue;
-    result.f = std::move(solution->f);
-    result.a = std::move(solution->a);
-    result.is_first = count == 0;
-    break;
+    ++solved;
+    answer = SolveWord(problem, *word, near);
   }
-  return result;
+  answer.counters = {{Counter::kWords, solved}};
+  return answer;
 }
 
 }  // namespace stiction

@@ -13,6 +13,7 @@
 
 #include "certify/exact/modes.h"
 #include "certify/exact/wide_ball.h"
+#include "solver/problem/answer.h"
 
 namespace stiction {
 
@@ -27,12 +28,10 @@ ScaledProblem MakeScaled(const ExactProblem& problem);
 // Made of what the numbers were rounded to, in the same units.
 ScaledProblem MakeScaled(const ExactProblem& problem, const ContactProblem<double>& rounded);
 
-struct RankedMode {
-  Mode mode;
-  double broken;  // by how much the point breaks the conditions
-};
+// By how much a point breaks the conditions of a mode.
+using RankedMode = std::pair<double, Mode>;
 
-// The words made of ranked modes, in the order of the sum of `broken`.
+// The words made of ranked modes, in the order of the sum of what is broken.
 class WordsByRank {
  public:
   // Of the point f of the scaled problem.
@@ -50,38 +49,22 @@ class WordsByRank {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
-// Forces and a = A f + b.
-struct SolvedWord {
-  ExactVector f, a;
-};
+// A solution of the problem in the word, exactly verified, f and a = A f + b; or undecided. `near`: forces
+// close to the point, of few bits. Where the equations leave forces free they are taken as zero, then as in
+// `near`: inside its word Ipopt's point has room for the others to follow.
+Answer<Rational> SolveWord(const ExactProblem& problem, const ModeWord& word,
+                           const std::vector<Rational>& near);
 
-// A solution of the problem in the word, exactly verified. `near`: forces close to the point, of few bits.
-// Where the equations leave forces free they are taken as zero, then as in `near`: inside its word Ipopt's
-// point has room for the others to follow.
-std::optional<SolvedWord> SolveWord(const ExactProblem& problem, const ModeWord& word,
-                                    const std::vector<Rational>& near);
+// The same between ends, zero where the word says so: the one solution of the word's equations, if it solves
+// the problem, whose numbers are those of `rounded` at their nearest doubles (Rounded, corpus/rounded.h).
+// Undecided where balls do not tell every sign that the law asks for.
+Answer<NarrowBall> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word);
 
-// The same between ends: zero where the word says so, and every sign that the law asks for is told.
-struct EnclosedSolution {
-  using Vector = ContactProblem<NarrowBall>::Vector;
-  using Matrix = ContactProblem<NarrowBall>::Matrix;
-  Vector f, a;
-};
-
-// The one solution of the word's equations, if it solves the problem, whose numbers are those of `rounded` at
-// their nearest doubles (Rounded, corpus/rounded.h). Empty where balls do not tell.
-std::optional<EnclosedSolution> EncloseWord(const ContactProblem<double>& rounded, const ModeWord& word);
-
-// What the first `words` words near the point f of the scaled problem have: a solution, exactly verified, or
-// nothing, as near a point that is not finite. Words in `tried` are passed over, and the others put there.
-struct NearbyWords {
-  std::optional<ExactVector> f;
-  ExactVector a;          // A f + b, with f
-  int words = 0;          // whose equations were solved
-  bool is_first = false;  // the solution is in the nearest word
-};
-NearbyWords SolveNear(const ExactProblem& problem, const ScaledProblem& scaled, const std::vector<double>& f,
-                      int words, std::set<ModeWord>& tried);
+// A solution, as by SolveWord, in one of the first `words` words near the point f of the scaled problem; or
+// undecided, as near a point that is not finite. Counter: words, whose equations were solved. Those in `tried`
+// are passed over, and the others put there.
+Answer<Rational> SolveNear(const ExactProblem& problem, const ScaledProblem& scaled,
+                           const std::vector<double>& f, int words, std::set<ModeWord>& tried);
 
 }  // namespace stiction
 

@@ -82,13 +82,13 @@ std::optional<std::pair<int, int>> FindAsymmetry(const ExactMatrix& A) {
   return std::nullopt;
 }
 
-std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatrix& A) {
+std::variant<LdltFactors, Obstacle> DecideSemidefinite(const ExactMatrix& A) {
   const int size = static_cast<int>(A.rows());
   ExactMatrix S = SymmetricPart(A);
   LdltFactors factors{Identity(size), Zeros(size)};
   for (int k = 0; k < size; ++k) {
     if (const auto y = CurvatureOfSchur(S, k)) {
-      NegativeCurvature witness{SolveTransposed(factors.L, *y), 0};
+      Obstacle witness{SolveTransposed(factors.L, *y), 0};
       for (int i = 0; i < size; ++i) {
         for (int j = 0; j < size; ++j) witness.value += witness.x[i] * A(i, j) * witness.x[j];
       }
@@ -100,20 +100,17 @@ std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatri
   return factors;
 }
 
-std::variant<LdltFactors, NoCurvature> DecideDefinite(const ExactMatrix& A) {
-  const auto decision = DecideSemidefinite(A);
-  if (const auto* negative = std::get_if<NegativeCurvature>(&decision)) {
-    return NoCurvature{negative->x, negative->value};
+std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A) {
+  auto decision = DecideSemidefinite(A);
+  const auto* factors = std::get_if<LdltFactors>(&decision);
+  for (int k = 0; factors != nullptr && k < factors->D.size(); ++k) {
+    if (factors->D[k] == 0) return Obstacle{SolveTransposed(factors->L, Identity(A.rows()).col(k)), 0};
   }
-  const auto& factors = std::get<LdltFactors>(decision);
-  for (int k = 0; k < factors.D.size(); ++k) {
-    if (factors.D[k] == 0) return NoCurvature{SolveTransposed(factors.L, Identity(A.rows()).col(k)), 0};
-  }
-  return factors;
+  return decision;
 }
 
 // Row echelon form of [A | b | I]: a row that is zero in A names the obstacle in its last part.
-std::variant<RangePoint, RangeObstacle> DecideRange(const ExactMatrix& A, const ExactVector& b) {
+std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const ExactVector& b) {
   const int size = static_cast<int>(b.size());
   ExactMatrix M(size, 2 * size + 1);
   M.leftCols(size) = A;
@@ -133,11 +130,11 @@ std::variant<RangePoint, RangeObstacle> DecideRange(const ExactMatrix& A, const 
   }
   const int rank = static_cast<int>(pivot_column.size());
   for (int i = rank; i < size; ++i) {
-    if (M(i, size) != 0) return RangeObstacle{M.row(i).tail(size).transpose(), M(i, size)};
+    if (M(i, size) != 0) return Obstacle{M.row(i).tail(size).transpose(), M(i, size)};
   }
-  RangePoint point{Zeros(size)};
-  for (int i = 0; i < rank; ++i) point.x[pivot_column[i]] = M(i, size) / M(i, pivot_column[i]);
-  return point;
+  ExactVector x = Zeros(size);
+  for (int i = 0; i < rank; ++i) x[pivot_column[i]] = M(i, size) / M(i, pivot_column[i]);
+  return x;
 }
 
 bool IsSymmetric(const ExactProblem& problem) { return !FindAsymmetry(problem.A); }

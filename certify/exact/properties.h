@@ -30,28 +30,20 @@ struct LdltFactors {
   ExactMatrix L;  // lower triangular, unit diagonal
   ExactVector D;  // >= 0
 };
-struct NegativeCurvature {
+// A vector that shows that something is not so, by a number that is made of it.
+struct Obstacle {
   ExactVector x;
-  Rational value;  // x'Ax < 0
+  Rational value;
 };
-// For an asymmetric matrix the answer is that of (A + A')/2, which has the same x'Ax.
-std::variant<LdltFactors, NegativeCurvature> DecideSemidefinite(const ExactMatrix& A);
 
-struct NoCurvature {
-  ExactVector x;   // not 0
-  Rational value;  // x'Ax <= 0
-};
-// As above; D > 0.
-std::variant<LdltFactors, NoCurvature> DecideDefinite(const ExactMatrix& A);
+// Or x'Ax < 0. For an asymmetric matrix the answer is that of (A + A')/2, which has the same x'Ax.
+std::variant<LdltFactors, Obstacle> DecideSemidefinite(const ExactMatrix& A);
 
-struct RangePoint {
-  ExactVector x;  // A x = b
-};
-struct RangeObstacle {
-  ExactVector y;   // y'A = 0
-  Rational value;  // y'b /= 0
-};
-std::variant<RangePoint, RangeObstacle> DecideRange(const ExactMatrix& A, const ExactVector& b);
+// D > 0; or x'Ax <= 0 for an x that is not 0. Of an asymmetric matrix as above.
+std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A);
+
+// x with A x = b; or y'b /= 0, where y'A = 0.
+std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const ExactVector& b);
 
 bool IsSymmetric(const ExactProblem& problem);
 bool IsPositiveSemidefinite(const ExactProblem& problem);

@@ -18,7 +18,7 @@ void RequireConvex(const ExactMatrix& A) {
                                  i, j, j, i, ToString(A(i, j)), ToString(A(j, i))));
   }
   const auto decision = DecideSemidefinite(A);
-  const auto* curvature = std::get_if<NegativeCurvature>(&decision);
+  const auto* curvature = std::get_if<Obstacle>(&decision);
   if (curvature == nullptr) return;
   std::string contacts;
   for (int i = 0; i < A.rows(); ++i) {
@@ -62,35 +62,29 @@ Answer<Rational> SolveQp(const ExactProblem& problem) {
   RequireFrictionless(problem);
   RequireConvex(problem.A);
   const int rows = problem.rows();
-  Answer<Rational> run;
-  run.outcome = Outcome::kSolved;
-  run.f = ExactVector::Zero(rows);
-  run.a = problem.b;
-  if (rows == 0) return run;
+  if (rows == 0) {
+    Answer<Rational> nothing;
+    nothing.outcome = Outcome::kSolved;
+    return nothing;
+  }
   const mpz_class p = Denominator(problem.A), q = Denominator(problem.b);
-  QuadraticProgram program;
+  std::vector<std::vector<mpz_class>> M;
+  std::vector<mpz_class> c;
   for (int i = 0; i < rows; ++i) {
-    program.c.push_back(Scaled(problem.b[i], q));
-    std::vector<mpz_class>& row = program.M.emplace_back();
+    c.push_back(Scaled(problem.b[i], q));
+    std::vector<mpz_class>& row = M.emplace_back();
     for (int j = 0; j < rows; ++j) row.push_back(Scaled(problem.A(i, j), p));
   }
-  const QuadraticEnd end = Minimize(program);
-  run.counters = {{Counter::kIterations, end.iterations}};
-  Rational unit(p, q);
-  unit.canonicalize();
-  ExactVector x(rows);
-  for (int i = 0; i < rows; ++i) x[i] = end.bounded ? Rational(unit * end.x[i]) : end.x[i];
-  if (!end.bounded) {
-    STICTION_CHECK(IsRay(problem, x), "the direction of an unbounded program shows it");
-    run.outcome = Outcome::kRay;
-    run.f.resize(0);
-    run.a.resize(0);
-    run.ray = x;
+  Answer<Rational> run = Minimize(M, c);
+  if (!run.Solved()) {
+    STICTION_CHECK(IsRay(problem, run.ray), "the direction of an unbounded program shows it");
     return run;
   }
-  STICTION_CHECK(!FindViolation(problem, x), "the least value of the program is a solution");
-  run.f = x;
-  run.a = Accelerations(problem, x);
+  Rational unit(p, q);
+  unit.canonicalize();
+  run.f *= unit;
+  STICTION_CHECK(!FindViolation(problem, run.f), "the least value of the program is a solution");
+  run.a = Accelerations(problem, run.f);
   return run;
 }
 

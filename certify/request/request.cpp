@@ -157,16 +157,16 @@ Solution SolveAsked(const AnyProblem& problem, const Request& request, const std
 
 // ---- Certificates ----
 
-Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
-                   const EnumerationOptions& enumeration) {
-  const FrictionLaw law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
-  if (!wanted.law.empty() && wanted.claim != "existence")
+Json CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
+                   const std::string& source, const ExactFactors* factors, const EnumerationWatch& watch) {
+  Request request = wanted.request;
+  request.law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
+  if (!wanted.law.empty() && claim != "existence")
     throw InputError(
         fmt::format("{0}law {1}: expected {0}claim existence, found {2}, of which no law is chosen",
-                    wanted.dashes, wanted.law, wanted.claim));
-  return CertifyClaim(
-      problem, source, wanted.claim,
-      {PoliciesAsked(wanted.policy, problem.dimension), wanted.limits, enumeration, law, wanted.factors});
+                    wanted.dashes, wanted.law, claim));
+  return CertifyClaim(problem, source, claim, request, PoliciesAsked(wanted.policy, problem.dimension), factors,
+                      watch);
 }
 
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest) {

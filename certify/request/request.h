@@ -48,18 +48,11 @@ Solution SolveAsked(const AnyProblem& problem, const Request& request, const std
 
 // ---- Certificates ----
 
-struct WantedClaim {
-  std::string claim = "existence";
-  std::string policy = "paper";  // or "*"
-  std::string law = "";          // of claim existence in space; empty: Coulomb's
-  Limits limits = {};
-  const ExactFactors* factors = nullptr;  // of the problem, where it has some
-  std::string_view dashes = "--";
-};
-
-// What became of the claim that is asked for (certify/claims/claim_answer.h).
-Json CertificateOf(const WantedClaim& wanted, const ExactProblem& problem, const std::string& source,
-                   const EnumerationOptions& enumeration);
+// What became of the claim (certify/claims/claim_answer.h). Of what is wanted policy, or "*", law, of claim
+// existence in space alone, and the limits of the request are read. `factors`: of the problem, where it has
+// some.
+Json CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
+                   const std::string& source, const ExactFactors* factors, const EnumerationWatch& watch = {});
 
 // CheckCertificate of a text, which InputError refuses that is too long for one, or no JSON.
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest);

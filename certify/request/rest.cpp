@@ -234,11 +234,11 @@ std::optional<ExactVector> RestOf(const ExactProblem& problem) {
   };
   if (found.f && rests(*found.f)) return found.f;
   const auto range = DecideRange(problem.A, problem.b);
-  const RangePoint* point = std::get_if<RangePoint>(&range);
+  const ExactVector* point = std::get_if<ExactVector>(&range);
   if (point == nullptr) return std::nullopt;
-  const ExactVector f = -point->x;
+  const ExactVector f = -*point;
   if (!FindConeViolation(problem, f)) return f;
-  if (found.f && RefutesRest(problem, *found.f + point->x)) return std::nullopt;
+  if (found.f && RefutesRest(problem, *found.f + *point)) return std::nullopt;
   if (IsRegular(problem.A)) return std::nullopt;
   return SearchCone(problem);
 }

@@ -146,9 +146,7 @@ Json MethodsOn(const ProblemFile& file, const ExplainOptions& o) {
 
 // The contact modes that have solutions, in the plane.
 Json SolutionsOf(const ExactProblem& problem) {
-  EnumerationOptions options;
-  options.programs = kPrograms;
-  const Enumeration modes = EnumerateModes(problem, options);
+  const Enumeration modes = EnumerateModes(problem, {.limits = {.programs = kPrograms}});
   Json words = Json::array();
   bool unique = modes.distinct_witnesses == 1;
   for (const WordSolution& solution : modes.solutions) {
@@ -179,17 +177,16 @@ void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& foun
 Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::string& policy) {
   const ExactProblem& problem = file.problem;
   Json claims = Json::array();
-  ClaimOptions options;
-  options.policies = PoliciesAsked(policy, problem.dimension);
-  options.limits = o.limits;
-  options.enumeration.programs = kPrograms;
-  options.factors = file.problem.factors();
+  Request request = {.limits = o.limits};
+  request.limits.programs = kPrograms;
+  const std::vector<Policy> policies = PoliciesAsked(policy, problem.dimension);
+  const ExactFactors* factors = file.problem.factors();
   const std::string stem = std::filesystem::path(o.file).stem().string();
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;
     try {
       claim.require(problem, o.file);
-      const Json answer = ToJson(claim.certify(problem, options), claim.name);
+      const Json answer = ToJson(claim.Decide(problem, request, policies, factors), claim.name);
       const Json& certificate = answer["certificate"];
       constexpr std::string_view kOfRuns[] = {"cycle", "ray", "endless", "counterexample"};
       const bool of_runs = std::ranges::find(kOfRuns, claim.name) != std::end(kOfRuns);

@@ -50,7 +50,7 @@ Json AsymmetryToJson(const AnyProblem& problem) {
 }
 
 // x'Ax / x'x.
-Rational RayleighQuotient(const NegativeCurvature& negative) {
+Rational RayleighQuotient(const Obstacle& negative) {
   Rational square = 0;
   for (const Rational& x : negative.x) square += x * x;
   return negative.value / square;
@@ -70,7 +70,7 @@ Json CurvatureToJson(const AnyProblem& problem, bool exactly) {
     json["how"] = "exact";
   } else if (exactly) {
     const auto decision = DecideSemidefinite(problem.dense().A);
-    const auto* negative = std::get_if<NegativeCurvature>(&decision);
+    const auto* negative = std::get_if<Obstacle>(&decision);
     json["psd"] = negative == nullptr;
     json["how"] = "exact";
     if (negative != nullptr) json["most"] = ToDouble(RayleighQuotient(*negative)) / scale;
@@ -88,7 +88,7 @@ Json RangeToJson(const AnyProblem& problem, bool exactly) {
   if (regular || by_factors || json["distance"] == 0) {
     json["in-range"] = true;
   } else if (exactly) {
-    json["in-range"] = std::holds_alternative<RangePoint>(DecideRange(problem.dense().A, problem.b()));
+    json["in-range"] = std::holds_alternative<ExactVector>(DecideRange(problem.dense().A, problem.b()));
   }
   json["regular"] = regular;
   return json;
@@ -223,10 +223,10 @@ std::vector<int> RowsOf(const ExactProblem& problem, const std::vector<int>& con
 // The certificate of the whole, null if undecided; and the methods that made it.
 std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
                                             const std::vector<std::vector<int>>& groups, const Limits& limits) {
-  EnumerationOptions options;
-  options.programs = kSurveyPrograms;
+  Request request = {.law = FrictionLaw::kBaraff, .limits = limits};
+  request.limits.programs = kSurveyPrograms;
   if (groups.size() <= 1) {
-    Existence existence = DecideExistence(problem, limits, options);
+    ClaimAnswer existence = DecideExistence(problem, request);
     return {std::move(existence.certificate), std::string(existence.method)};
   }
   ExactVector f(problem.rows());
@@ -237,7 +237,7 @@ std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
     for (const int contact : group) part.contacts.push_back(problem.contacts[contact]);
     part.A = problem.A(rows, rows);
     part.b = problem.b(rows);
-    const Existence existence = DecideExistence(part, limits, options);
+    const ClaimAnswer existence = DecideExistence(part, request);
     methods.emplace(existence.method);
     if (existence.certificate.is_null()) return {nullptr, std::string(existence.method)};
     if (existence.certificate["claim"] != "solution-exists") {
@@ -281,8 +281,7 @@ Json RunPublished(const ExactProblem& problem, const Limits& limits) {
   run["seconds"] = watch.Seconds();
   run["pivots"] = published.verdict.statistics.pivots;
   if (!published.verdict.reason.empty()) run["reason"] = published.verdict.reason;
-  if (published.verdict.outcome == Outcome::kSolved)
-    run["residual"] = VerifiedResidual(problem, published.state.f);
+  if (published.verdict.outcome == Outcome::kSolved) run["residual"] = VerifiedResidual(problem, published.f);
   return run;
 }
 

@@ -20,12 +20,7 @@ struct SceneProblemOptions {
   bool factors = false;          // in place of A
   bool full = false;             // one problem, with redundant rows; it keeps its scene
 
-  AssembleOptions<Rational> assembly() const {
-    AssembleOptions<Rational> options;
-    options.level = level == "impulses" ? Level::kImpulses : Level::kForces;
-    options.minimal = !full;
-    return options;
-  }
+  Level AtLevel() const { return level == "impulses" ? Level::kImpulses : Level::kForces; }
 };
 
 // One for each island of the model that was assembled with these options, in its order. Those in factors have

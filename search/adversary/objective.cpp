@@ -105,10 +105,8 @@ Value Radius(ExactTrial& trial) {
 // One more than all of them if none led to a solution.
 double StartsOfIpopt(ExactTrial& trial) {
   thread_local IpoptProposer proposer;
-  const ProposalOptions options;
-  ProposalStatistics statistics;
-  const bool solved = proposer.ProposeSolution(trial.problem(), options, statistics).has_value();
-  return static_cast<double>(solved ? statistics.starts : options.starts + 1);
+  const Answer<Rational> answer = proposer.ProposeSolution(trial.problem());
+  return static_cast<double>(answer.Solved() ? answer.counters[Counter::kStarts] : proposer.starts + 1);
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem
   if (trial.Loops()) {
     record.certificate = CycleCertificate(problem.problem, {Policy{}}, limits);
   } else {
-    record.certificate = DecideExistence(problem.problem, limits).certificate;
+    record.certificate =
+        DecideExistence(problem.problem, {.law = FrictionLaw::kBaraff, .limits = limits}).certificate;
   }
   return record;
 }

@@ -16,7 +16,7 @@
 // its own, and at rest.
 //
 // Contacts come in the order of FindContacts on the scene (scene/contacts.h), so that its full model
-// (AssembleOptions::minimal = false) is the problem itself.
+// (Assemble, minimal = false) is the problem itself.
 
 #ifndef STICTION_SEARCH_GENERATORS_SCENES_H_
 #define STICTION_SEARCH_GENERATORS_SCENES_H_

@@ -321,7 +321,7 @@ std::string CertificateOfSolution(SolverLaw law, const ExactProblem& problem, co
   const bool of_coulomb = law != SolverLaw::kBox && law != SolverLaw::kFindex;
   if (!in_space && (!of_coulomb || !SolutionUnder(law, *InDoubles(problem)))) return "";
   const FrictionLaw friction = in_space ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
-  const Json certificate = DecideExistence(problem, limits, {}, friction).certificate;
+  const Json certificate = DecideExistence(problem, {.law = friction, .limits = limits}).certificate;
   if (certificate.is_null() || !CheckCertificate(certificate, "solution").accepted) return "";
   return JsonText(certificate);
 }

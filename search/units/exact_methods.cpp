@@ -15,13 +15,14 @@ namespace stiction {
 namespace {
 
 Feasibility AskIpopt(const ExactProblem& problem) {
-  ProposalStatistics statistics;
   try {
     thread_local IpoptProposer proposer;
-    const bool solved = proposer.ProposeSolution(problem, {}, statistics).has_value();
-    return {solved ? "solved" : "undecided", statistics.starts, statistics.ipopt_seconds};
+    const double before = proposer.ipopt_seconds();
+    const Answer<Rational> answer = proposer.ProposeSolution(problem);
+    return {std::string(Name(answer.outcome)), answer.counters[Counter::kStarts],
+            proposer.ipopt_seconds() - before};
   } catch (const InputError&) {  // it is not installed, or not for such a problem
-    return {"unavailable", statistics.starts, statistics.ipopt_seconds};
+    return {"unavailable", 0, 0};
   }
 }
 

@@ -171,7 +171,7 @@ void Examiner::CompareFiltered(const Place& place, const Verdict& filtered, cons
        fmt::format("filtered, the published algorithm ends {} after {} steps; over rationals {} after {}",
                    Name(filtered.outcome), filtered.statistics.steps, Name(exact.outcome),
                    exact.statistics.steps)},
-      problem, {{AnswerBy("baraff", exact.outcome, run.state.f)}, {}});
+      problem, {{AnswerBy("baraff", exact.outcome, run.f)}, {}});
 }
 
 void Examiner::CompareInSpace(const Place& place, Outcome published, const ExactProblem& problem) {
@@ -190,7 +190,7 @@ void Examiner::Compare(const Place& place, const ExactRun& published, const Exac
                        bool with_lemke) {
   const Spending spending(collector_.meter(), &ProcessorTime::compared);
   Answers answers{{methods_.complete(problem, campaign_.limits),
-                   AnswerBy("baraff", published.verdict.outcome, published.state.f)},
+                   AnswerBy("baraff", published.verdict.outcome, published.f)},
                   {}};
   AgreementTally& tally = collector_.agreement();
   const bool promised = collector_.PromisesSolution();
@@ -237,7 +237,7 @@ void Examiner::CheckSafety(const Place& place, const ExactRun& published, const 
       place, published.verdict.outcome,
       {"safe-give-up", fmt::format("the problem is safe and the run without ties, yet {} gives up {} times",
                                    PolicyName(policy), run.verdict.statistics.give_ups)},
-      problem, {{AnswerBy("baraff", run.verdict.outcome, run.state.f)}, {}});
+      problem, {{AnswerBy("baraff", run.verdict.outcome, run.f)}, {}});
 }
 
 }  // namespace stiction

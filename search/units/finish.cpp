@@ -76,9 +76,8 @@ struct Decided {
 
 Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source, const Limits& limits,
                           const std::function<bool()>& cancelled) {
-  EnumerationOptions options;
-  options.progress = [&cancelled](const EnumerationProgress&) { return !cancelled(); };
-  const Existence existence = DecideExistence(problem, limits, options);
+  const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits},
+                                                [&cancelled](const Enumeration&) { return !cancelled(); });
   const bool decided = !existence.certificate.is_null();
   Decided result;
   if (decided) result.certificate = Checked(existence.certificate, source);
@@ -140,10 +139,10 @@ struct Unfinished {
 // All methods on the problem as found. A disagreement that only shows here makes the finding one, under its
 // signature.
 void CompareMethods(Finding& finding, Json& facts, const Unfinished& found, const Limits& limits) {
-  Answers answers{{found.methods.complete(found.problem, limits),
-                   AnswerBy("baraff", found.run.verdict.outcome, found.run.state.f),
-                   found.methods.lemke(found.problem, limits)},
-                  {}};
+  Answers answers{
+      {found.methods.complete(found.problem, limits),
+       AnswerBy("baraff", found.run.verdict.outcome, found.run.f), found.methods.lemke(found.problem, limits)},
+      {}};
   if (finding.contacts <= kMostContactsEnumerated) answers.modes = found.methods.modes(found.problem);
   const auto disagreement = FindDisagreement(found.problem, answers);
   if (!disagreement || finding.kind == kDisagreementOfMethods) return;
@@ -159,8 +158,8 @@ void CertifyFound(Finding& finding, Json& facts, const Unfinished& found, const 
   if (outcome == Outcome::kCycle) {
     finding.certificate =
         Checked(CycleCertificate(found.problem, {found.run.policy}, limits), finding.signature);
-  } else if (outcome == Outcome::kSolved && !FindViolation(found.problem, found.run.state.f)) {
-    finding.certificate = Checked(SolutionCertificate(found.problem, found.run.state.f), finding.signature);
+  } else if (outcome == Outcome::kSolved && !FindViolation(found.problem, found.run.f)) {
+    finding.certificate = Checked(SolutionCertificate(found.problem, found.run.f), finding.signature);
   }
   Decided existence = DecideExistenceOf(found.problem, finding.signature, limits, cancelled);
   finding.existence = std::move(existence.certificate);
@@ -194,7 +193,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
 }
 
 std::string ExistenceInSpace(const ExactProblem& problem, const std::string& source, const Limits& limits) {
-  const Existence existence = DecideExistence(problem, limits, {});
+  const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits});
   return existence.certificate.is_null() ? std::string() : Checked(existence.certificate, source);
 }
 

@@ -119,6 +119,7 @@ struct Limits {
   std::int64_t drives = 10000;
   std::int64_t pivots = 100000;
   std::int64_t bits = 100000;
+  std::int64_t programs = 1000000;  // linear, of enumerations of contact modes alone; no command asks for it
   // Set by somebody who no longer waits: the run ends `undecided`, soon. No part of what a run is.
   const std::atomic<bool>* stop = nullptr;
 

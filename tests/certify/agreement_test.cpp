@@ -20,7 +20,7 @@ const Limits kLimits = {1000, 10000, 100000};
 // What the methods really say.
 Answers AnswersOf(const ExactProblem& problem) {
   const ExactRun published = RunExact(problem, {.limits = kLimits});
-  return {{AnswerBy("baraff", published.verdict.outcome, published.state.f), RunComplete(problem, kLimits),
+  return {{AnswerBy("baraff", published.verdict.outcome, published.f), RunComplete(problem, kLimits),
            RunLemke(problem, kLimits)},
           EnumerateModes(problem)};
 }

@@ -27,6 +27,10 @@ using Catch::Contains;
 
 // ---- Certificates ----------------------------------------------------------------------------
 
+Json CounterexampleOf(const ExactProblem& problem, const std::vector<Policy>& policies) {
+  return CertifyClaim(problem, "p", "counterexample", {}, policies)["certificate"];
+}
+
 // One of every claim, of problems with zeros, singular matrices and frictionless contacts.
 std::vector<Json> OneOfEveryClaim() {
   const ExactProblem singular =
@@ -48,7 +52,7 @@ std::vector<Json> OneOfEveryClaim() {
           DefiniteCertificate(ReferenceProblem()),
           DefiniteCertificate(singular),
           CycleCertificate(ReferenceProblem(), policies, {}),
-          CounterexampleCertificate(ReferenceProblem(), policies, {})};
+          CounterexampleOf(ReferenceProblem(), policies)};
 }
 
 std::string ClaimOf(const Json& certificate) { return certificate["claim"].get<std::string>(); }
@@ -84,9 +88,7 @@ TEST_CASE("certificate: no contacts at all can be certified") {
 
 // With budgets so small that no forces are found.
 TEST_CASE("certificate: where no forces are found, the theorem says that there are some") {
-  ClaimOptions few;
-  few.limits.pivots = 1;
-  few.enumeration.programs = 1;
+  const Request few = {.limits = {.pivots = 1, .programs = 1}};
   const ExactProblem problem = ReferenceProblem(), none = NoSolution();  // of which (H) fails
   CHECK(ClaimOf(CertifyClaim(problem, "p", "existence", {})["certificate"]) == "solution-exists");
   const Json exists = CertifyClaim(problem, "p", "existence", few)["certificate"];
@@ -130,13 +132,13 @@ TEST_CASE("certificate: definite or not, and the direction that shows it") {
 }
 
 TEST_CASE("certificate: a counterexample is a cycle, a definite A and a solution, of one problem") {
-  const Json certificate = CounterexampleCertificate(ReferenceProblem(), PlanarGrid(), {});
+  const Json certificate = CounterexampleOf(ReferenceProblem(), PlanarGrid());
   const CheckReport report = CheckCertificate(certificate, "c", ProblemDigest(ReferenceProblem()));
   CAPTURE(report.reason);
   REQUIRE(report.accepted);
   CHECK(report.facts["policies"] == 1320);
   CHECK(certificate["witness"]["f"] == Json({"1", "-6/7", "25/14", "-25/14"}));
-  CHECK(CounterexampleCertificate(ThreeSolutions(), PlanarGrid(), {}).is_null());  // no cycle
+  CHECK(CounterexampleOf(ThreeSolutions(), PlanarGrid()).is_null());  // no cycle
   ExactProblem bordered = ReferenceProblem();  // a contact more that nothing moves: A is semidefinite only
   bordered.contacts.push_back({ContactKind::kFrictionless});
   bordered.A = ExactMatrix::Constant(5, 5, 0);
@@ -144,7 +146,7 @@ TEST_CASE("certificate: a counterexample is a cycle, a definite A and a solution
   bordered.b = ExactVector::Constant(5, 0);
   bordered.b.head(4) = ReferenceProblem().b;
   CHECK_FALSE(CycleCertificate(bordered, {Policy{}}, {}).is_null());
-  CHECK(CounterexampleCertificate(bordered, {Policy{}}, {}).is_null());
+  CHECK(ClaimOf(CounterexampleOf(bordered, {Policy{}})) == "not-definite");
 }
 
 TEST_CASE("certificate: one of another problem is refused by its digest") {

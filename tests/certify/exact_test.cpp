@@ -140,7 +140,7 @@ TEST_CASE("runs with bilateral and sliding contacts: every step in the terms of 
       CHECK(problem.contacts[LayoutOf(problem).ContactOf(pivot.driven)].kind != ContactKind::kBilateral);
       ++steps;
     }
-    CHECK(run.state.f == f);
+    CHECK(run.f == f);
     CHECK(run.a == problem.A * f + problem.b);
     if (run.verdict.outcome == Outcome::kSolved) CHECK_FALSE(FindViolation(problem, f));
   }
@@ -161,7 +161,7 @@ TEST_CASE("runs with bilateral contacts: steps and loops of what they leave, und
   const Request round = {.policy = ParsePolicy("resume=round")};
   const ExactRun plain = RunExact(problem, round), run = RunExact(bordered, round);
   CHECK(run.policy == round.policy);
-  CHECK(run.state.last_driven_contact == plain.state.last_driven_contact + 1);
+  CHECK(run.last_driven_contact == plain.last_driven_contact + 1);
   CHECK(run.initial_f[0] == Rational(3, 2));
   CHECK(run.initial_f[5] == 0);  // depends on the first
   REQUIRE(run.trace.pivots.size() == plain.trace.pivots.size());

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -25,9 +26,9 @@ IpoptProposer& Proposer() {
   return proposer;
 }
 
-std::optional<ExactVector> Propose(const ExactProblem& problem, const ProposalOptions& options = {}) {
-  ProposalStatistics statistics;
-  return Proposer().ProposeSolution(problem, options, statistics);
+std::optional<ExactVector> Propose(const ExactProblem& problem, IpoptProposer& proposer = Proposer()) {
+  const Answer<Rational> answer = proposer.ProposeSolution(problem);
+  return answer.Solved() ? std::optional(answer.f) : std::nullopt;
 }
 
 ExactVector ReferenceSolution() { return Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)}); }
@@ -58,22 +59,21 @@ TEST_CASE("ipopt: the reference problem is solved exactly") {
 }
 
 TEST_CASE("ipopt: no start gives anything else than a solution") {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    ProposalOptions options;
-    options.seed = seed;
-    const auto f = Propose(ThreeSolutions(), options);
+  IpoptProposer proposer(STICTION_IPOPT);
+  for (proposer.seed = 1; proposer.seed <= 10; ++proposer.seed) {
+    const auto f = Propose(ThreeSolutions(), proposer);
     REQUIRE(f);
     CHECK(!FindViolation(ThreeSolutions(), *f));
   }
 }
 
 TEST_CASE("ipopt: a problem without a solution gets no answer") {
-  ProposalOptions options;
-  options.starts = 5;
-  ProposalStatistics statistics;
-  CHECK(!Proposer().ProposeSolution(NoSolution(), options, statistics));
-  CHECK(statistics.solved == 0);
-  CHECK(statistics.starts == 5);
+  IpoptProposer proposer(STICTION_IPOPT);
+  proposer.starts = 5;
+  const Answer<Rational> answer = proposer.ProposeSolution(NoSolution());
+  CHECK(answer.outcome == Outcome::kUndecided);
+  CHECK(!answer.reason.empty());
+  CHECK(answer.counters[Counter::kStarts] == 5);
 }
 
 TEST_CASE("ipopt: nothing to solve is solved") {
@@ -97,13 +97,9 @@ TEST_CASE("ipopt: units far from one do not matter") {
 TEST_CASE("ipopt: redundant contacts leave forces open, and are solved") {
   // A block carried by three contacts in a row: rank two.
   const ExactProblem problem = MakeProblem({-1, -1, -1}, {{2, 1, 0}, {1, 1, 1}, {0, 1, 2}}, {-1, -1, -1});
-  for (const Formulation formulation : {Formulation::kNonlinear, Formulation::kQuadratic}) {
-    ProposalOptions options;
-    options.formulation = formulation;
-    const auto f = Propose(problem, options);
-    REQUIRE(f);
-    CHECK(!FindViolation(problem, *f));
-  }
+  const auto f = Propose(problem);
+  REQUIRE(f);
+  CHECK(!FindViolation(problem, *f));
 }
 
 TEST_CASE("ipopt: every kind of contact") {
@@ -127,54 +123,41 @@ TEST_CASE("ipopt: every kind of contact") {
 TEST_CASE("ipopt: most random problems are solved, whatever their size") {
   constexpr int kProblems = 20;
   for (int contacts = 1; contacts <= 4; ++contacts) {
-    ProposalStatistics statistics;
+    Counters counters;
+    int solved = 0;
     for (int index = 0; index < kProblems; ++index) {
       const auto problem = Random<Rational>(GeneratorId::kIntegers, contacts, index);
-      const auto f = Proposer().ProposeSolution(problem, {}, statistics);
-      if (f) CHECK(!FindViolation(problem, *f));
+      const Answer<Rational> answer = Proposer().ProposeSolution(problem);
+      counters += answer.counters;
+      solved += answer.Solved();
+      if (answer.Solved()) CHECK(!FindViolation(problem, answer.f));
     }
-    WARN(contacts << " contacts: solved " << statistics.solved << " of " << statistics.problems << ", "
-                  << statistics.starts << " starts, " << statistics.iterations << " iterations, "
-                  << statistics.words << " words, " << statistics.seconds << " s");
-    CHECK(statistics.problems == kProblems);
-    CHECK(statistics.solved >= kProblems / 2);
-    CHECK(statistics.starts >= kProblems);
+    WARN(contacts << " contacts: solved " << solved << " of " << kProblems << ", " << counters[Counter::kStarts]
+                  << " starts, " << counters[Counter::kIterations] << " iterations, "
+                  << counters[Counter::kWords] << " words");
+    CHECK(solved >= kProblems / 2);
+    CHECK(counters[Counter::kStarts] >= kProblems);
   }
-}
-
-TEST_CASE("ipopt: equation (5) solves frictionless problems, and only those") {
-  ProposalOptions options;
-  options.formulation = Formulation::kQuadratic;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const ExactProblem problem = RandomFrictionless(1 + static_cast<int>(seed % 4), seed);
-    const auto f = Propose(problem, options);
-    REQUIRE(f);
-    CHECK(!FindViolation(problem, *f));
-  }
-  CHECK_THROWS_WITH(Propose(ReferenceProblem(), options),
-                    Catch::Contains("contacts[0].kind: found static, expected frictionless"));
 }
 
 TEST_CASE("ipopt: the same request gets the same answer") {
   const auto problem = Random<Rational>(GeneratorId::kIntegers, 3, 7);
-  ProposalStatistics first, second;
-  const auto f = Proposer().ProposeSolution(problem, {}, first);
-  CHECK(f == Proposer().ProposeSolution(problem, {}, second));
-  CHECK(first.starts == second.starts);
-  CHECK(first.iterations == second.iterations);
+  const Answer<Rational> first = Proposer().ProposeSolution(problem),
+                         second = Proposer().ProposeSolution(problem);
+  CHECK(first.f == second.f);
+  CHECK(first.counters[Counter::kStarts] == second.counters[Counter::kStarts]);
+  CHECK(first.counters[Counter::kIterations] == second.counters[Counter::kIterations]);
 }
 
 TEST_CASE("ipopt: a process that is killed is replaced") {
   IpoptProposer proposer(STICTION_IPOPT);
-  ProposalStatistics statistics;
   for (int round = 1; round <= 3; ++round) {
     const int before = proposer.process_id();
     REQUIRE(before > 0);
     REQUIRE(kill(before, SIGKILL) == 0);
-    const auto f = proposer.ProposeSolution(ReferenceProblem(), {}, statistics);
+    const auto f = Propose(ReferenceProblem(), proposer);
     REQUIRE(f);
     CHECK(*f == ReferenceSolution());
-    CHECK(statistics.restarts == round);
     CHECK(proposer.process_id() != before);
   }
 }
@@ -186,33 +169,29 @@ TEST_CASE("ipopt: a process killed while it works is replaced", "[slow]") {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     kill(process, SIGKILL);  // not reaped before `proposer` sees it: still ours
   });
-  ProposalOptions options;
-  options.starts = 100;  // takes longer than that
-  ProposalStatistics statistics;
-  CHECK(!proposer.ProposeSolution(NoSolution(), options, statistics));
+  proposer.starts = 100;  // takes longer than that
+  const Answer<Rational> answer = proposer.ProposeSolution(NoSolution());
   killer.join();
-  CHECK(statistics.restarts == 1);
-  CHECK(statistics.starts == 100);
+  CHECK(!answer.Solved());
+  CHECK(answer.counters[Counter::kStarts] == 100);
+  CHECK(proposer.process_id() > 0);
+  CHECK(proposer.process_id() != process);
 }
 
 TEST_CASE("ipopt: a process that always dies is no answer, not a loop") {
   const Script script(std::string(kGreeting) + "\nread line\n");
   IpoptProposer proposer(script.path());
-  ProposalStatistics statistics;
-  CHECK(!proposer.ProposeSolution(ReferenceProblem(), {}, statistics));
-  CHECK(statistics.restarts == 1);
+  CHECK(!Propose(ReferenceProblem(), proposer));
   CHECK(proposer.process_id() == -1);
 }
 
 TEST_CASE("ipopt: a process that hangs is ended") {
   const Script script(std::string(kGreeting) + "\nexec sleep 600\n");
   IpoptProposer proposer(script.path());
-  ProposalOptions options;
-  options.patience = 0.05;
-  ProposalStatistics statistics;
-  CHECK(!proposer.ProposeSolution(ReferenceProblem(), options, statistics));
-  CHECK(statistics.timeouts == 1);
-  CHECK(statistics.seconds < 10);
+  proposer.patience = 0.05;
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(!Propose(ReferenceProblem(), proposer));
+  CHECK(proposer.process_id() == -1);
 
   // It does not even read, and the request is longer than what is kept for it.
   const int contacts = 200;
@@ -220,9 +199,8 @@ TEST_CASE("ipopt: a process that hangs is ended") {
       MakeProblem(std::vector<Rational>(contacts, -1), {}, std::vector<Rational>(contacts, -1));
   large.A = ExactMatrix::Constant(contacts, contacts, Rational(1, 3));
   large.A(0, 0) = 1;
-  CHECK(!proposer.ProposeSolution(large, options, statistics));
-  CHECK(statistics.timeouts == 2);
-  CHECK(statistics.seconds < 10);
+  CHECK(!Propose(large, proposer));
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
 }
 
 TEST_CASE("ipopt: a wrong proposal is never returned") {
@@ -232,9 +210,9 @@ TEST_CASE("ipopt: a wrong proposal is never returned") {
       "\nwhile read line; do echo '{\"status\": \"solved\", \"f\": [3, 3, 0, 0], \"iterations\": 1, "
       "\"starts\": 20, \"objective\": 0, \"seconds\": 0}'; done\n");
   IpoptProposer proposer(script.path());
-  ProposalStatistics statistics;
-  CHECK(!proposer.ProposeSolution(ReferenceProblem(), {}, statistics));
-  CHECK(statistics.words >= 1);
+  const Answer<Rational> answer = proposer.ProposeSolution(ReferenceProblem());
+  CHECK(!answer.Solved());
+  CHECK(answer.counters[Counter::kWords] >= 1);
 }
 
 TEST_CASE("ipopt: what is not the program is refused with its path") {
@@ -248,8 +226,7 @@ TEST_CASE("ipopt: what is not the program is refused with its path") {
 TEST_CASE("ipopt: an answer that is none is refused") {
   const Script script(std::string(kGreeting) + "\nread line; echo '{\"f\": 1}'\n");
   IpoptProposer proposer(script.path());
-  ProposalStatistics statistics;
-  CHECK_THROWS_AS(proposer.ProposeSolution(ReferenceProblem(), {}, statistics), InputError);
+  CHECK_THROWS_AS(proposer.ProposeSolution(ReferenceProblem()), InputError);
 }
 
 TEST_CASE("ipopt: a problem in space is refused") {

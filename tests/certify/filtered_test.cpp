@@ -272,7 +272,7 @@ TEST_CASE(
   for (const auto& [contacts, method] : {std::pair{3, "complete"}, std::pair{14, "fast"}}) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       CAPTURE(contacts, seed);
-      const Existence existence = DecideExistence(Generic(contacts, seed), {});
+      const ClaimAnswer existence = DecideExistence(Generic(contacts, seed), {});
       CHECK(existence.method == method);
       CHECK(CheckCertificate(existence.certificate, "test").accepted);
     }
@@ -280,7 +280,7 @@ TEST_CASE(
   // Where doubles hold none of it, rationals do.
   ExactProblem beyond = Generic(13, 1);
   for (auto& contact : beyond.contacts) contact.mu *= Number("1e400");
-  const Existence existence = DecideExistence(beyond, {});
+  const ClaimAnswer existence = DecideExistence(beyond, {});
   CHECK(CheckCertificate(existence.certificate, "test").accepted);
   CHECK(DecideExistence(NoSolution(), {}).certificate.at("claim") == "no-solution");
 }
@@ -320,14 +320,14 @@ TEST_CASE("filtered: of all words those are enclosed that rationals solve, and a
         CAPTURE(seed, WordToJson(word).dump());
         const auto ends = EncloseWord(rounded, word);
         const auto exact = SolveWord(problem, word, std::vector<Rational>(problem.rows(), 0));
-        solved += exact.has_value();
-        if (!ends) continue;
+        solved += exact.Solved();
+        if (!ends.Solved()) continue;
         ++enclosed;
-        REQUIRE(exact);
-        CHECK(exact->a == ExactVector(problem.A * exact->f + problem.b));
+        REQUIRE(exact.Solved());
+        CHECK(exact.a == ExactVector(problem.A * exact.f + problem.b));
         for (int i = 0; i < problem.rows(); ++i) {
-          CHECK(abs(Rational(ends->f[i].middle()) - exact->f[i]) <= Rational(ends->f[i].radius()));
-          CHECK(abs(Rational(ends->a[i].middle()) - exact->a[i]) <= Rational(ends->a[i].radius()));
+          CHECK(abs(Rational(ends.f[i].middle()) - exact.f[i]) <= Rational(ends.f[i].radius()));
+          CHECK(abs(Rational(ends.a[i].middle()) - exact.a[i]) <= Rational(ends.a[i].radius()));
         }
       }
     }
@@ -336,7 +336,8 @@ TEST_CASE("filtered: of all words those are enclosed that rationals solve, and a
   CHECK(solved - enclosed <= 3);  // nothing ties
   // Bilateral contacts that depend on each other leave forces free: that is for rationals.
   const ExactProblem bordered = Bordered(Generic(1, 1));
-  for (const ModeWord& word : AllWords(bordered)) CHECK_FALSE(EncloseWord(Rounded<double>(bordered), word));
+  for (const ModeWord& word : AllWords(bordered))
+    CHECK_FALSE(EncloseWord(Rounded<double>(bordered), word).Solved());
 }
 
 TEST_CASE("filtered: what doubles end in is certified: between ends around a solution, or exactly") {

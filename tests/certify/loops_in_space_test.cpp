@@ -80,12 +80,12 @@ Policy WithSlip(Slip slip) {
   return policy;
 }
 
-std::string FaultyPlace(const ExactProblem& problem, const Policy& policy, const LoopInSpace& loop) {
+std::string FaultyPlace(const ExactProblem& problem, const Policy& policy, const RunInSpace& loop) {
   const auto fault = FindLoopFault(problem, policy, loop);
-  return fault ? fault->place : "";
+  return fault ? fault->path : "";
 }
 
-LoopInSpace Proof(const ExactProblem& problem, const Policy& policy) {
+RunInSpace Proof(const ExactProblem& problem, const Policy& policy) {
   const auto loop = ProveLoopInSpace(problem, policy, {});
   REQUIRE(loop.has_value());
   return *loop;
@@ -95,7 +95,7 @@ TEST_CASE("loops in space: proved by sets and by boxes, under both slips") {
   for (const Slip slip : {Slip::kLiteral, Slip::kRedirect}) {
     const Policy policy = WithSlip(slip);
     for (const auto& [problem, is_box] : {std::pair(OfStates(), false), std::pair(OfBoxes(), true)}) {
-      const LoopInSpace loop = Proof(problem, policy);
+      const RunInSpace loop = Proof(problem, policy);
       CHECK(loop.IsBox() == is_box);
       CHECK(FaultyPlace(problem, policy, loop).empty());
       const InexactAnswer run = RunIntervalsInSpace(problem, {.policy = policy});
@@ -107,7 +107,7 @@ TEST_CASE("loops in space: proved by sets and by boxes, under both slips") {
 
 TEST_CASE("loops in space: what moved along a line comes back exactly") {
   const Policy literal = WithSlip(Slip::kLiteral);
-  LoopInSpace loop = Proof(OfLines(), literal);
+  RunInSpace loop = Proof(OfLines(), literal);
   CHECK(FaultyPlace(OfLines(), literal, loop).empty());
   ExactProblem other = OfLines();
   other.A(1, 4) += Rational(1, 1000);
@@ -120,8 +120,8 @@ TEST_CASE("loops in space: a proof that is altered has a fault") {
   const Policy literal = WithSlip(Slip::kLiteral), redirect = WithSlip(Slip::kRedirect);
   for (const Policy& policy : {literal, redirect}) {
     for (const ExactProblem& problem : {OfStates(), OfBoxes()}) {
-      const LoopInSpace proof = Proof(problem, policy);
-      LoopInSpace other = proof;
+      const RunInSpace proof = Proof(problem, policy);
+      RunInSpace other = proof;
       other.word.pop_back();
       CHECK(FaultyPlace(problem, policy, other) == "word");
       other = proof;
@@ -140,9 +140,9 @@ TEST_CASE("loops in space: a proof that is altered has a fault") {
 
 TEST_CASE("loops in space: a box that is altered has a fault in its place") {
   const Policy policy = WithSlip(Slip::kRedirect);
-  const LoopInSpace box = Proof(OfBoxes(), policy);
-  const auto place = [&](const LoopInSpace& other) { return FaultyPlace(OfBoxes(), policy, other); };
-  LoopInSpace other = box;
+  const RunInSpace box = Proof(OfBoxes(), policy);
+  const auto place = [&](const RunInSpace& other) { return FaultyPlace(OfBoxes(), policy, other); };
+  RunInSpace other = box;
   other.centre[0] += 3 * box.radii[0];
   CHECK(place(other) == "centre");
   other = box;
@@ -180,7 +180,7 @@ TEST_CASE(
     CHECK(loop->endless);
     CHECK(FaultyPlace(OfBoxes(), WithSlip(slip), *loop).empty());
     CHECK_FALSE(ProveEndlessInSpace(OfStates(), WithSlip(slip), {}).has_value());
-    LoopInSpace other = Proof(OfStates(), WithSlip(slip));
+    RunInSpace other = Proof(OfStates(), WithSlip(slip));
     other.endless = true;
     CHECK(FaultyPlace(OfStates(), WithSlip(slip), other) == "kind");
   }
@@ -189,12 +189,12 @@ TEST_CASE(
 TEST_CASE(
     "loops in space: a contact turns away with less and less, and with nothing at the fixed point alone") {
   const Policy redirect = WithSlip(Slip::kRedirect);
-  LoopInSpace loop = Proof(OfTurnings(), redirect);
+  RunInSpace loop = Proof(OfTurnings(), redirect);
   CHECK(loop.punctured);
   CHECK(FaultyPlace(OfTurnings(), redirect, loop).empty());
   loop.endless = true;
   CHECK(FaultyPlace(OfTurnings(), redirect, loop).empty());
-  LoopInSpace other = loop;
+  RunInSpace other = loop;
   other.punctured = false;
   CHECK(FaultyPlace(OfTurnings(), redirect, other) == "bits");
   other = loop;
@@ -229,8 +229,8 @@ TEST_CASE("rays in space: proved where nothing limits a step, a fault where alte
   CHECK_FALSE(FindRayFault(OfRay(), literal, *ray).has_value());
   CHECK_FALSE(ProveRayInSpace(OfRay(), redirect, {}).has_value());    // solved
   CHECK_FALSE(ProveRayInSpace(OfStates(), literal, {}).has_value());  // loops
-  const auto place = [](const RayInSpace& other) { return FindRayFault(OfRay(), WithSlip({}), other)->place; };
-  RayInSpace other = *ray;
+  const auto place = [](const RunInSpace& other) { return FindRayFault(OfRay(), WithSlip({}), other)->path; };
+  RunInSpace other = *ray;
   other.word.pop_back();
   CHECK(place(other) == "word");
   other = *ray;
@@ -242,7 +242,7 @@ TEST_CASE("rays in space: proved where nothing limits a step, a fault where alte
   ExactProblem large = OfRay();  // in a row of which no sign is asked
   large.A(5, 0) = Rational(mpz_class(1) << 1000);
   CHECK(FindRayFault(large, literal, *ray)->expected == "more: numbers of A, b and mu are below 2^(bits / 4)");
-  const RayInSpace ended = {384, {}};
+  const RunInSpace ended = {.bits = 384};
   CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word[3]");
   CHECK(FindRayFault(OfStates(), literal, ended)->place == "word");
 }

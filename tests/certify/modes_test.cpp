@@ -337,9 +337,9 @@ TEST_CASE("modes: the answer of the published algorithm lies in a word found, on
       if (run.verdict.outcome != Outcome::kSolved) continue;
       int words = 0;
       for (const WordSolution& solution : enumeration.solutions) {
-        const bool within = MeetsModes(problem, solution.word, run.state.f, run.a);
+        const bool within = MeetsModes(problem, solution.word, run.f, run.a);
         words += within;
-        if (within && solution.unique) CHECK(solution.f == run.state.f);
+        if (within && solution.unique) CHECK(solution.f == run.f);
       }
       CHECK(words > 0);
     }
@@ -350,31 +350,28 @@ TEST_CASE("modes: the answer of the published algorithm lies in a word found, on
 
 TEST_CASE("modes: the first solution only, a spent budget, a cancelled search") {
   const ExactProblem problem = Decoupled(ThreeSolutions(), ThreeSolutions());
-  EnumerationOptions options;
-  options.first_solution_only = true;
-  const Enumeration first = EnumerateModes(problem, options);
-  CHECK(first.end == EnumerationEnd::kFirstSolution);
+  const Enumeration first = EnumerateModes(problem, {}, UntilSolved);
+  CHECK(first.end == EnumerationEnd::kStopped);
   CHECK(first.solutions.size() == 1);
-  options = {};
   const std::int64_t all = EnumerateModes(problem).programs;
   for (const std::int64_t budget : {std::int64_t{2}, all - 1, all}) {
-    options.programs = budget;
-    const Enumeration within = EnumerateModes(problem, options);
+    const Enumeration within = EnumerateModes(problem, {.limits = {.programs = budget}});
     CHECK(within.end == (budget < all ? EnumerationEnd::kLimit : EnumerationEnd::kComplete));
     CHECK(within.programs == budget);
   }
-  options = {};
   double decided = 0;
-  options.progress = [&](const EnumerationProgress& progress) {
-    CHECK(progress.decided > decided);
-    decided = progress.decided;
+  const auto watch = [&](const Enumeration& so_far) {
+    CHECK(so_far.decided > decided);
+    decided = so_far.decided;
     return true;
   };
-  CHECK(EnumerateModes(problem, options).end == EnumerationEnd::kComplete);
+  CHECK(EnumerateModes(problem, {}, watch).end == EnumerationEnd::kComplete);
   CHECK(decided == Approx(1));
-  options.progress = [](const EnumerationProgress& progress) { return progress.solutions < 2; };
-  const Enumeration cancelled = EnumerateModes(problem, options);
-  CHECK(cancelled.end == EnumerationEnd::kCancelled);
+  const std::atomic<bool> stop = true;
+  CHECK(EnumerateModes(problem, {.limits = {.stop = &stop}}).prefixes == 1);
+  const Enumeration cancelled =
+      EnumerateModes(problem, {}, [](const Enumeration& so_far) { return so_far.solutions.size() < 2; });
+  CHECK(cancelled.end == EnumerationEnd::kStopped);
   CHECK(cancelled.solutions.size() == 2);
   CHECK_FALSE(cancelled.ProvesNoSolution());
   CHECK_THROWS_AS(NoSolutionCertificate(problem, cancelled), InternalError);

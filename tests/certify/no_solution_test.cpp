@@ -49,7 +49,7 @@ TEST_CASE("no solution: what is proved to have none is never called solved") {
   int none = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     const ExactProblem problem = OfRankOne(seed);
-    const Existence existence = DecideExistence(problem, {});
+    const ClaimAnswer existence = DecideExistence(problem, {});
     if (existence.certificate.is_null() || existence.certificate["claim"] != "no-solution") continue;
     ++none;
     CAPTURE(seed);

@@ -54,7 +54,7 @@ void CheckFactors(const ExactMatrix& A, const LdltFactors& factors) {
   }
 }
 
-void CheckCurvature(const ExactMatrix& A, const NegativeCurvature& witness) {
+void CheckCurvature(const ExactMatrix& A, const Obstacle& witness) {
   CHECK(witness.value < 0);
   CHECK(Dot(witness.x, Times(A, witness.x)) == witness.value);
 }
@@ -79,7 +79,7 @@ TEST_CASE("semidefinite: L diag(D) L' is A, or x'Ax < 0, of every symmetric matr
       CheckFactors(A, *factors);
     } else {
       CHECK(index % 2 == 0);  // A = J J' is semidefinite
-      CheckCurvature(A, std::get<NegativeCurvature>(decision));
+      CheckCurvature(A, std::get<Obstacle>(decision));
     }
   }
   CHECK(counts[0] > 500);
@@ -90,8 +90,8 @@ TEST_CASE("semidefinite: a zero pivot whose column is not zero has a witness") {
   for (const auto& A : {Matrix({{0, 1}, {1, 0}}), Matrix({{0, 1}, {1, 1000}}), Matrix({{0, -1}, {-1, -1}}),
                         Matrix({{4, 2, 2}, {2, 1, 3}, {2, 3, 9}})}) {
     const auto decision = DecideSemidefinite(A);
-    REQUIRE(std::holds_alternative<NegativeCurvature>(decision));
-    CheckCurvature(A, std::get<NegativeCurvature>(decision));
+    REQUIRE(std::holds_alternative<Obstacle>(decision));
+    CheckCurvature(A, std::get<Obstacle>(decision));
   }
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("semidefinite: of an asymmetric matrix x'Ax decides, which is that of 
     Choices choices(index);
     const ExactMatrix A = RandomMatrix(1 + index % 4, false, choices);
     const auto decision = DecideSemidefinite(A);
-    if (const auto* witness = std::get_if<NegativeCurvature>(&decision)) CheckCurvature(A, *witness);
+    if (const auto* witness = std::get_if<Obstacle>(&decision)) CheckCurvature(A, *witness);
   }
 }
 
@@ -117,12 +117,12 @@ TEST_CASE("range: A x = b, or y'A = 0 and y'b /= 0, of every matrix and vector")
     const ExactVector b = inside ? Times(A, RandomVector(size, choices)) : RandomVector(size, choices);
     const auto decision = DecideRange(A, b);
     ++counts[decision.index()];
-    if (const auto* point = std::get_if<RangePoint>(&decision)) {
-      CHECK(Times(A, point->x) == b);
+    if (const auto* point = std::get_if<ExactVector>(&decision)) {
+      CHECK(Times(A, *point) == b);
       continue;
     }
     CHECK_FALSE(inside);
-    const auto& [y, value] = std::get<RangeObstacle>(decision);
+    const auto& [y, value] = std::get<Obstacle>(decision);
     CHECK(value != 0);
     CHECK(Dot(y, b) == value);
     const ExactVector yA = Times(A.transpose(), y);

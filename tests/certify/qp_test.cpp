@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/neighbour.h"
-#include "certify/exact/qp_ipopt.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -53,7 +53,7 @@ TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure conc
     const int contacts = 1 + static_cast<int>(seed % 5);
     const ExactProblem problem =
         definite ? RandomFrictionless(contacts, seed) : RandomSingular(contacts, 1 + contacts / 2, seed);
-    const Answer<double> run = SolveQpByIpopt(problem, ipopt);
+    const Answer<double> run = ipopt.ProposePoint(problem);
     REQUIRE(run.f.size() == problem.rows());
     const ExactVector f = run.f.unaryExpr([](double x) { return Rational(x); });
     if (FindMiss(problem, f, FrictionLaw::kCoulomb, GateOf<double>(1e-6))) continue;
@@ -68,10 +68,10 @@ TEST_CASE("qp: by Ipopt, over doubles, near the exact solution, its failure conc
     CHECK(error <= 0.1 * largest);
   }
   CHECK(solved >= 18);
-  const Answer<double> open = SolveQpByIpopt(MakeProblem({-1, -1}, {{1, -1}, {-1, 1}}, {-1, 0}), ipopt);
+  const Answer<double> open = ipopt.ProposePoint(MakeProblem({-1, -1}, {{1, -1}, {-1, 1}}, {-1, 0}));
   CHECK(open.outcome == Outcome::kUndecided);
   CHECK(!open.reason.empty());
-  CHECK_THROWS_WITH(SolveQpByIpopt(ReferenceProblem(), ipopt), Catch::Contains("contacts[0].kind"));
+  CHECK_THROWS_WITH(ipopt.ProposePoint(ReferenceProblem()), Catch::Contains("contacts[0].kind"));
 }
 
 }  // namespace

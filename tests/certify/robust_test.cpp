@@ -56,7 +56,7 @@ TEST_CASE("robust: every problem of the box loops with the same start and period
     REQUIRE(near.verdict.outcome == Outcome::kCycle);
     CHECK(near.verdict.start == run.verdict.start);
     CHECK(near.verdict.period == run.verdict.period);
-    CHECK(near.state.sets == run.state.sets);
+    CHECK(near.sets == run.sets);
   }
 }
 
@@ -161,9 +161,7 @@ class Off {
       Turn(contact.normal);
       contact.mu *= 1 + radius_ * part_();
     }
-    AssembleOptions<Rational> full;
-    full.minimal = false;
-    return Assemble(scene, contacts, full).Problem(0);
+    return Assemble(scene, contacts, Level::kForces, /*minimal=*/false).Problem(0);
   }
 
  private:
@@ -209,7 +207,7 @@ int PartsOf(const TouchingScene& scene) {
 bool LoopsAlike(const ExactProblem& problem, const ExactRun& run, const Request& options) {
   const ExactRun near = RunExact(problem, options);
   return near.verdict.outcome == Outcome::kCycle && near.verdict.start == run.verdict.start &&
-         near.verdict.period == run.verdict.period && near.state.sets == run.state.sets;
+         near.verdict.period == run.verdict.period && near.sets == run.sets;
 }
 
 TEST_CASE("robust: every scene of the box loops with the same start and period") {
@@ -351,7 +349,7 @@ TEST_CASE("robust: scenes that move, are joined or do not touch have no box") {
   const auto path = [&](const std::function<void(Scene<Rational>&)>& change) {
     Scene<Rational> scene = fit;
     change(scene);
-    return UnfitForBox(scene).value_or(UnfitScene{}).path;
+    return UnfitForBox(scene).value_or(Rejected{}).path;
   };
   CHECK(path([](auto& scene) { scene.bodies[1].velocity[0] = 1; }) == "bodies[1]");
   CHECK(path([](auto& scene) { scene.bodies[0].spin = 1; }) == "bodies[0]");

@@ -198,12 +198,12 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   CHECK(SolveInSpace(wedge, {.law = FrictionLaw::kBaraff}, SpaceEngine::kLemke).outcome == Outcome::kRay);
   // Touching, it has forces that pull its friction against its slip: nothing without directions refutes it.
   CHECK(RefuteInSpace(wedge).end == EnumerationEnd::kOpen);
-  CHECK(DecideExistence(wedge, {}).certificate.is_null());
+  CHECK(DecideExistence(wedge, {.law = FrictionLaw::kBaraff}).certificate.is_null());
   wedge.contacts[0].mu = Rational(1, 2);
   const ExactAnswer solved = SolveInSpace(wedge, {.law = FrictionLaw::kBaraff});
   REQUIRE(solved.outcome == Outcome::kSolved);
   CHECK(solved.f == Vector({2, 1, 0}));
-  CHECK(!DecideExistence(wedge, {}).certificate.is_null());
+  CHECK(!DecideExistence(wedge, {.law = FrictionLaw::kBaraff}).certificate.is_null());
 }
 
 TEST_CASE("space: that there is no solution is proved word by word, or not at all") {
@@ -231,13 +231,9 @@ TEST_CASE("space: that there is no solution is proved word by word, or not at al
   CHECK(words.refuted.size() > 1);
   CHECK(CheckCertificate(NoSolutionCertificate(problem, words), "here").accepted);
   for (const std::int64_t budget : {0, 1}) {
-    EnumerationOptions few;
-    few.programs = budget;
-    CHECK(RefuteInSpace(problem, few).end == EnumerationEnd::kLimit);
+    CHECK(RefuteInSpace(problem, {.limits = {.programs = budget}}).end == EnumerationEnd::kLimit);
   }
-  EnumerationOptions cancelled;
-  cancelled.progress = [](const EnumerationProgress&) { return false; };
-  CHECK(RefuteInSpace(problem, cancelled).end == EnumerationEnd::kCancelled);
+  CHECK(RefuteInSpace(problem, {}, [](const Enumeration&) { return false; }).end == EnumerationEnd::kStopped);
   CHECK_THROWS_AS(RefuteInSpace(ThreeSolutions()), InputError);
 }
 
@@ -262,11 +258,11 @@ TEST_CASE("space: a solution out of range(A) is found near doubles, where paths 
     REQUIRE(near.outcome == Outcome::kSolved);
     CHECK(!FindViolation(problem, near.f));
     CHECK(CoulombBound(problem, near.f).value() > 1 - Rational(1, 1 << 20));
-    const Existence existence = DecideExistence(problem, {}, {}, law);
+    const ClaimAnswer existence = DecideExistence(problem, {.law = law});
     CHECK(existence.method == "fast");
     CHECK(existence.certificate["claim"] ==
           (law == FrictionLaw::kCoulomb ? "coulomb-solution" : "solution-exists"));
-    CHECK(DecideExistence(DeadNormal(Rational(-1, 10)), {}, {}, law).certificate["claim"] == "no-solution");
+    CHECK(DecideExistence(DeadNormal(Rational(-1, 10)), {.law = law}).certificate["claim"] == "no-solution");
   }
   CHECK(SolveNearFast(DeadNormal(Rational(-1, 10)), {.law = FrictionLaw::kBaraff}).outcome ==
         Outcome::kUndecided);

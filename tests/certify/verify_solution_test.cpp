@@ -79,10 +79,10 @@ TEST_CASE("verify solution: a solution with one force moved is refused wherever 
     for (int i = 0; i < problem.rows(); ++i) problem.A(i, i) += 1;  // definite: every solution is isolated
     const ExactRun run = RunExact(problem, {});
     if (run.verdict.outcome != Outcome::kSolved) continue;
-    REQUIRE(FindViolation(problem, run.state.f) == std::nullopt);
+    REQUIRE(FindViolation(problem, run.f) == std::nullopt);
     for (int row = 0; row < problem.rows(); ++row) {
       for (const Rational& by : {Rational(1, 1000000), Rational(-1, 1000000)}) {
-        ExactVector f = run.state.f;
+        ExactVector f = run.f;
         f[row] += by;
         CHECK(FindViolation(problem, f) != std::nullopt);
         ++moved;

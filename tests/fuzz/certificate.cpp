@@ -25,17 +25,14 @@ constexpr std::int64_t kPrograms = 2000;
 bool IsPlanar(const ExactProblem& problem) { return problem.dimension == 2; }
 
 bool ProvesNoSolution(const ExactProblem& problem) {
-  EnumerationOptions options;
-  options.first_solution_only = true;
-  options.programs = kPrograms;
-  return (IsPlanar(problem) ? EnumerateModes(problem, options) : RefuteInSpace(problem, options))
+  const Request request = {.limits = {.programs = kPrograms}};
+  return (IsPlanar(problem) ? EnumerateModes(problem, request, UntilSolved) : RefuteInSpace(problem, request))
       .ProvesNoSolution();
 }
 
 bool HasSolution(const ExactProblem& problem) {
-  EnumerationOptions options;
-  options.programs = kPrograms;
-  const Json certificate = DecideExistence(problem, Limits{}, options).certificate;
+  const Json certificate =
+      DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = {.programs = kPrograms}}).certificate;
   return certificate.is_object() && certificate["claim"] == "solution-exists";
 }
 

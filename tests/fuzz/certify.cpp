@@ -2,6 +2,7 @@
 // Certificates of problems at extremes: what is made is accepted, and nothing else is claimed.
 
 #include "certify/claims/certificate.h"
+#include "certify/claims/claims.h"
 #include "certify/claims/condition.h"
 #include "certify/claims/existence.h"
 #include "certify/claims/safe.h"
@@ -28,9 +29,9 @@ void RequireAccepted(const Json& certificate) {
 }
 
 Json ExistenceCertificate(const ExactProblem& problem) {
-  EnumerationOptions options;
-  options.programs = kMostPrograms;
-  return DecideExistence(problem, kRunLimits, options).certificate;
+  Request request = {.law = FrictionLaw::kBaraff, .limits = kRunLimits};
+  request.limits.programs = kMostPrograms;
+  return DecideExistence(problem, request).certificate;
 }
 
 std::vector<Policy> PaperAnd(int policy) {
@@ -69,7 +70,9 @@ bool FuzzCertify(std::string_view input) {
   if (problem.dimension == 2) {
     const std::vector<Policy> policies = PaperAnd(policy);
     made += Makes([&] { return CycleCertificate(problem, policies, kRunLimits); });
-    made += Makes([&] { return CounterexampleCertificate(problem, policies, kRunLimits); });
+    made += Makes([&] {
+      return CertifyClaim(problem, "made", "counterexample", {.limits = kRunLimits}, policies)["certificate"];
+    });
   }
   Unrefused([&problem] {
     RequireSafeFriction(problem);

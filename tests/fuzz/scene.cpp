@@ -26,11 +26,8 @@ bool IsSmall(const SceneIn<Kind, Rational>& scene) {
 template <class Kind, class Scalar>
 std::vector<ContactProblem<Scalar>> AssembleAll(const SceneIn<Kind, Scalar>& scene, Level level, bool minimal) {
   const auto contacts = FindContacts(scene);
-  AssembleOptions<Scalar> options;
-  options.level = level;
-  options.minimal = minimal;
-  const auto model = Assemble(scene, contacts, options);
-  Explain(scene, contacts, model, options);
+  const auto model = Assemble(scene, contacts, level, minimal);
+  Explain(scene, contacts, model, level);
   std::vector<ContactProblem<Scalar>> problems;
   for (std::size_t i = 0; i < model.islands.size(); ++i) problems.push_back(model.Problem(i));
   return problems;

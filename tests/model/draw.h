@@ -113,9 +113,7 @@ inline Case DrawGenerated(Choices& choices) {
 }
 
 inline SceneModel<Rational> FullModel(const Scene<Rational>& scene) {
-  AssembleOptions<Rational> options;
-  options.minimal = false;
-  return Assemble(scene, FindContacts(scene), options);
+  return Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/false);
 }
 
 inline Case DrawScene(Choices& choices) {

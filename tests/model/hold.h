@@ -251,10 +251,8 @@ inline Fault FaultOfSparse(const Case& drawn,
 inline Fault FaultOfClaims(const ExactProblem& problem, const Truth& truth) {
   const char* const command = "stiction certify FILE --claim existence";
   try {
-    EnumerationOptions enumeration;
-    enumeration.programs = 10000;
-    const Existence existence =
-        DecideExistence(problem, {.drives = 1000, .pivots = 1000}, enumeration, FrictionLaw::kCoulomb);
+    const ClaimAnswer existence =
+        DecideExistence(problem, {.limits = {.drives = 1000, .pivots = 1000, .programs = 10000}});
     std::vector<Json> certificates = {SymmetryCertificate(problem), RangeCertificate(problem)};
     if (IsSymmetric(problem)) certificates.push_back(SemidefiniteCertificate(problem));
     if (!existence.certificate.is_null()) certificates.push_back(existence.certificate);

@@ -379,7 +379,7 @@ TEST_CASE(
   CHECK(reduction.problem().b[0] == -1);
   CHECK(reduction.problem().b[1] == 0);
   CHECK_FALSE(SolveExactly(problem).has_value());
-  CHECK(DecideExistence(problem, Limits()).certificate.at("claim") == "no-solution");
+  CHECK(DecideExistence(problem, {}).certificate.at("claim") == "no-solution");
 }
 
 TEST_CASE("scene: two cards lean on each other above mu = (centre - foot) / height, and slide apart below") {
@@ -429,9 +429,7 @@ TEST_CASE("assemble: minimal forces, extended by zeros, solve the full problem o
     if (name.starts_with("arch-")) continue;  // nothing to leave out, and 60 rows take a while over rationals
     const auto scene = NamedScene(name).scene;
     const auto contacts = FindContacts(scene);
-    AssembleOptions<Rational> options;
-    options.minimal = false;
-    const auto full = Assemble(scene, contacts, options);
+    const auto full = Assemble(scene, contacts, Level::kForces, /*minimal=*/false);
     const auto minimal = Assemble(scene, contacts);
     if (full.islands.empty()) continue;
     REQUIRE(full.islands.size() == 1);
@@ -450,25 +448,20 @@ TEST_CASE("assemble: islands, smooth pairs, what parts and inner contacts of a f
   const auto contacts = FindContacts(scene);
   const auto model = Assemble(scene, contacts);
   CHECK(model.islands.size() == 2);
-  int separating = 0, redundant = 0;
-  for (const auto& omission : model.omitted)
-    ++(omission.reason == OmissionReason::kSeparating ? separating : redundant);
-  CHECK(separating == 2);
-  CHECK(redundant == 2);  // the ground's two pieces meet under the middle block
+  CHECK(model.parting.size() == 2);
+  CHECK(model.redundant.size() == 2);  // the ground's two pieces meet under the middle block
   CHECK(model.islands[0].rows == 8);
   CHECK(model.islands[1].rows == 2);
-  AssembleOptions<Rational> options;
-  options.minimal = false;
-  const auto full = Assemble(scene, contacts, options);
+  const auto full = Assemble(scene, contacts, Level::kForces, /*minimal=*/false);
   CHECK(full.islands.at(0).rows == 16);
-  CHECK_FALSE(Explain(scene, contacts, model, AssembleOptions<Rational>()).empty());
+  CHECK_FALSE(Explain(scene, contacts, model, Level::kForces).empty());
 }
 
 TEST_CASE("assemble: of six contacts between two hollow blocks two are kept, and every tower is a problem") {
   const auto scene = NamedScene("hollow-blocks").scene;
   const auto model = Assemble(scene, FindContacts(scene));
   REQUIRE(model.islands.size() == 4);
-  CHECK(model.omitted.size() == 48);
+  CHECK(model.redundant.size() == 48);
   for (const auto& island : model.islands) CHECK(island.rows == 12);
 }
 
@@ -490,7 +483,7 @@ Scene<Rational> FaceOfThree() {
 
 TEST_CASE("assemble: an inner contact is dropped only between two of the same law, on one line, not nearer") {
   const auto dropped = [](const Scene<Rational>& scene) {
-    return Assemble(scene, FindContacts(scene)).omitted.size();
+    return Assemble(scene, FindContacts(scene)).redundant.size();
   };
   CHECK(dropped(FaceOfThree()) == 1);
   auto lower = FaceOfThree();
@@ -502,9 +495,7 @@ TEST_CASE("assemble: an inner contact is dropped only between two of the same la
   CHECK(dropped(tilted) == 0);
   // mu is a matter of pairs; one of its own is set in the rows.
   const auto scene = FaceOfThree();
-  AssembleOptions<Rational> options;
-  options.minimal = false;
-  auto constraints = Assemble(scene, FindContacts(scene), options).constraints;
+  auto constraints = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/false).constraints;
   CHECK(FindRedundant(constraints) == std::vector{2});
   constraints[2].law.mu = Rational(2);
   CHECK(FindRedundant(constraints).empty());
@@ -516,9 +507,7 @@ TEST_CASE("assemble: an inner contact is dropped only between two of the same la
 TEST_CASE("assemble: at the level of impulses b is the velocity, and b of gaps is not below it") {
   Scene<Rational> scene = NamedScene("beam-on-two-supports").scene;
   scene.bodies[2].velocity = MakeVector2<Rational>(Rational(0), Rational(-3));
-  AssembleOptions<Rational> options;
-  options.level = Level::kImpulses;
-  const auto model = Assemble(scene, FindContacts(scene), options);
+  const auto model = Assemble(scene, FindContacts(scene), Level::kImpulses);
   CHECK(model.colliding.size() == 2);
   CHECK(model.Problem(0).b[0] == -3);
   const auto p = SolveExactly(model);

@@ -25,16 +25,7 @@ SceneFileInSpace NamedFile(const std::string& name) {
 
 SimulationInSpace Started(const std::string& name) {
   const SceneFileInSpace file = NamedFile(name);
-  SimulationOptions options;
-  options.step = ToDouble(file.step);
-  return SimulationInSpace(Round(file.scene), options);
-}
-
-SimulationOptions WithStep(double step, int halvings = SimulationOptions().halvings) {
-  SimulationOptions options;
-  options.step = step;
-  options.halvings = halvings;
-  return options;
+  return SimulationInSpace(Round(file.scene), ToDouble(file.step));
 }
 
 // The deepest overlap at the end of a frame, until t = seconds.
@@ -116,15 +107,16 @@ TEST_CASE("simulate in space: no scene overlaps by more than its gap, or has pro
     CHECK(simulation.statistics().deep == 0);
   }
   // More contacts at rest than bodies can tell apart, b a little out of range(A).
-  SimulationInSpace dominoes(Round(NamedFile("dominoes").scene), WithStep(1.0 / 60));
+  SimulationInSpace dominoes(Round(NamedFile("dominoes").scene));
   WorstOverlap(dominoes, 3 / part);
   CHECK(dominoes.statistics().loose == 0);
 }
 
 TEST_CASE("simulate in space: a step that ends deep is taken back, and done in halves that do not") {
   const SceneInSpace<double> scene = Round(NamedFile("falling-bodies").scene);
-  SimulationInSpace whole(scene, WithStep(1.0 / 60, 0)), once(scene, WithStep(1.0 / 60, 1)),
-      halved(scene, WithStep(1.0 / 60));
+  SimulationInSpace whole(scene), once(scene), halved(scene);
+  whole.halvings = 0;
+  once.halvings = 1;
   CHECK(WorstOverlap(whole, 2) > 0.01);
   CHECK(whole.statistics().halved == 0);
   CHECK(whole.statistics().deep > 3);
@@ -162,7 +154,8 @@ TEST_CASE("simulate in space: halves keep momenta, and a fast impact from overla
     return Vector(at.bodies[0].mass * at.bodies[0].velocity + at.bodies[1].mass * at.bodies[1].velocity);
   };
   const SceneInSpace<double> scene = FastImpact();
-  SimulationInSpace whole(scene, WithStep(1.0 / 60, 0)), halved(scene, WithStep(1.0 / 60));
+  SimulationInSpace whole(scene), halved(scene);
+  whole.halvings = 0;
   CHECK(WorstOverlap(whole, 0.5) > 0.01);
   CHECK(WorstOverlap(halved, 0.5) <= 1e-3);
   CHECK(halved.statistics().halved > 0);
@@ -183,7 +176,7 @@ TEST_CASE("simulate in space: halves have the same answers on any number of thre
   }
   const auto run = [&scene](int threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    SimulationInSpace simulation(scene, WithStep(1.0 / 60));
+    SimulationInSpace simulation(scene);
     WorstOverlap(simulation, 1);
     return simulation;
   };
@@ -262,9 +255,7 @@ TEST_CASE("simulate in space: a wall pushed at the top moves without A as with i
 
   if (testing::Short()) return;           // a thousand rows, dense
   scene.bodies.back().force = {6, 1, 0};  // mu m g = 5 N
-  AssembleOptions<double> options;
-  options.step = 1.0 / 60;
-  const auto model = Assemble(scene, FindContacts(scene), options);
+  const auto model = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/true, 1.0 / 60);
   REQUIRE(model.islands.size() == 1);
   SceneSolver solver;
   const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.InFactors(0));
@@ -281,9 +272,8 @@ TEST_CASE("simulate in space: from the forces of the step before as from f = 0")
   for (const char* name :
        {"stack", "box-on-slope-slides", "crate-on-a-truck", "trapdoor-opens", "slider-crank"}) {
     INFO(name);
-    SimulationOptions cold;
-    cold.warm = false;
-    SimulationInSpace one(Round(NamedFile(name).scene)), other(Round(NamedFile(name).scene), cold);
+    SimulationInSpace one(Round(NamedFile(name).scene)), other(Round(NamedFile(name).scene));
+    other.warm = false;
     for (int i = 0; i < 60; ++i) {
       one.Step();
       other.Step();
@@ -334,9 +324,7 @@ void CheckFinerIsBetter(const Worst& coarse, const Worst& fine) {
 }
 
 Worst RunFor(const SceneInSpace<double>& scene, double seconds, int steps_a_second) {
-  SimulationOptions options;
-  options.step = 1.0 / steps_a_second;
-  SimulationInSpace simulation(scene, options);
+  SimulationInSpace simulation(scene, 1.0 / steps_a_second);
   return Run(simulation, static_cast<int>(seconds * steps_a_second));
 }
 
@@ -395,9 +383,7 @@ TEST_CASE("simulate in space: joined bodies in flight keep their momenta, and th
     std::array<Worst, 2> worst;
     std::array<double, 2> turned;  // change of the angular momentum
     for (int i = 0; i < 2; ++i) {
-      SimulationOptions options;
-      options.step = 1.0 / (480 << i);
-      SimulationInSpace simulation(scene, options);
+      SimulationInSpace simulation(scene, 1.0 / (480 << i));
       worst[i] = Run(simulation, 960 << i);
       const Eigen::Matrix<double, 6, 1> change = MomentaOf(simulation.scene()) - MomentaOf(scene);
       CHECK(change.head<3>().norm() < 1e-12);
@@ -414,14 +400,12 @@ TEST_CASE("simulate in space: joined bodies in flight keep their momenta, and th
 TEST_CASE("simulate in space: on two hinges of one axis bodies move as on one", "[slow]") {
   for (SceneInSpace<double> scene :
        {Started("leaning-gate").scene(), JoinedInFlight(JointKindInSpace::kHinge)}) {
-    SimulationOptions options;
-    options.step = 1.0 / 240;
-    SimulationInSpace one(scene, options);
+    SimulationInSpace one(scene, 1.0 / 240);
     scene.joints.push_back(scene.joints[0]);
     auto& second = scene.joints[1];
     second.at_b += 0.4 * second.direction;
     second.at_a += 0.4 * (RotationMatrix<double>(second.relative_rotation).transpose() * second.direction);
-    SimulationInSpace two(scene, options);
+    SimulationInSpace two(scene, 1.0 / 240);
     for (int i = 0; i < 480; ++i) one.Step(), two.Step();
     for (const int body : {0, 1}) {
       const auto &x = one.scene().bodies[body], &y = two.scene().bodies[body];

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <random>
 
 #include "corpus/record/scene_file.h"
@@ -22,8 +23,10 @@ Scene<double> SceneInDoubles(const std::string& name) {
   return Round(ReadScene(std::filesystem::path(STICTION_SCENES) / (name + ".json")).scene);
 }
 
-Simulation Run(const std::string& name, int steps, const SimulationOptions& options = {}) {
-  Simulation simulation(SceneInDoubles(name), options);
+Simulation Run(const std::string& name, int steps, double step = 1.0 / 60,
+               const std::function<void(Simulation&)>& prepare = {}) {
+  Simulation simulation(SceneInDoubles(name), step);
+  if (prepare) prepare(simulation);
   for (int i = 0; i < steps; ++i) simulation.Step();
   return simulation;
 }
@@ -58,10 +61,8 @@ TEST_CASE("simulate: a ladder stands above its mu and slides below") {
 TEST_CASE("simulate: joints hold, and a pendulum keeps its energy but for the step") {
   for (const char* name : {"double-pendulum", "pendulum-at-the-bottom"}) {
     INFO(name);
-    SimulationOptions options;
-    options.step = 1.0 / 480;
     const double energy = EnergyOf(SceneInDoubles(name)).total();
-    Simulation simulation(SceneInDoubles(name), options);
+    Simulation simulation(SceneInDoubles(name), 1.0 / 480);
     double worst = 0, joints = 0;
     for (int i = 0; i < 960; ++i) {
       simulation.Step();
@@ -75,18 +76,15 @@ TEST_CASE("simulate: joints hold, and a pendulum keeps its energy but for the st
 
 TEST_CASE("simulate: energy errors fall with the step") {
   const auto error = [](int steps_a_second) {
-    SimulationOptions options;
-    options.step = 1.0 / steps_a_second;
     const double before = EnergyOf(SceneInDoubles("double-pendulum")).total();
-    return std::abs(EnergyOf(Run("double-pendulum", steps_a_second, options).scene()).total() - before);
+    return std::abs(EnergyOf(Run("double-pendulum", steps_a_second, 1.0 / steps_a_second).scene()).total() -
+                    before);
   };
   CHECK(error(1920) < 0.6 * error(240));
 }
 
 TEST_CASE("simulate: falling bodies lose energy, overlap by no more than the gap, and come to rest") {
-  SimulationOptions options;
-  options.step = 1.0 / 120;
-  Simulation simulation(SceneInDoubles("falling-boxes"), options);
+  Simulation simulation(SceneInDoubles("falling-boxes"), 1.0 / 120);
   double energy = EnergyOf(simulation.scene()).total(), gained = 0, overlap = 0;
   for (int i = 0; i < 1200; ++i) {
     simulation.Step();
@@ -102,11 +100,9 @@ TEST_CASE("simulate: falling bodies lose energy, overlap by no more than the gap
 }
 
 TEST_CASE("simulate: a step that ends deep is taken back, and done in halves that do not") {
-  for (const int halvings : {0, SimulationOptions().halvings}) {
-    SimulationOptions options;
-    options.step = 1.0 / 15;
-    options.halvings = halvings;
-    Simulation simulation(SceneInDoubles("falling-boxes"), options);
+  for (const int halvings : {0, 10}) {
+    Simulation simulation(SceneInDoubles("falling-boxes"), 1.0 / 15);
+    simulation.halvings = halvings;
     double overlap = 0;
     for (int i = 0; i < 30; ++i) {
       simulation.Step();
@@ -139,7 +135,7 @@ TEST_CASE("simulate: where nothing collides a collision elsewhere changes nothin
     ++collisions;
     CHECK(met.problem.contacts.size() == 2);
   };
-  Simulation both(scene, {}, observe);
+  Simulation both(scene, 1.0 / 60, 0, observe);
   for (int i = 0; i < 100; ++i) both.Step();
   CHECK(collisions > 0);
 }
@@ -262,9 +258,7 @@ TEST_CASE("simulate: an arch stands above thickness / radius = 0.1075, and falls
     CHECK((thickness > 0.1075 ? move < 1e-10 : move > 1e-5));
   }
   CHECK(LargestMove(SceneInDoubles("arch-stands"), Run("arch-stands", 600).scene()) < 1e-10);
-  SimulationOptions options;
-  options.step = 1.0 / 120;
-  const Simulation falls = Run("arch-falls", 120, options);
+  const Simulation falls = Run("arch-falls", 120, 1.0 / 120);
   CHECK(falls.scene().bodies[7].position[1] < 0.2);  // the crown
 }
 
@@ -273,13 +267,12 @@ TEST_CASE("simulate: a house of cards stands") {
 }
 
 TEST_CASE("simulate: gears keep the ratio of their teeth, but for play") {
-  SimulationOptions options;
-  options.step = 1.0 / 240;
-  Simulation simulation(SceneInDoubles("gears"), options);
+  constexpr double kStep = 1.0 / 240;
+  Simulation simulation(SceneInDoubles("gears"), kStep);
   double turned = 0;
   for (int i = 0; i < 1440; ++i) {
     simulation.Step();
-    turned += options.step * simulation.scene().bodies[2].spin;
+    turned += kStep * simulation.scene().bodies[2].spin;
   }
   CHECK(turned == Approx(-2 * 6.0 * 12 / 18).margin(0.05));
   CHECK(DriftOf(simulation.scene()).overlap < 1e-4);
@@ -300,9 +293,8 @@ TEST_CASE("simulate: a sliding block stops and stays") {
 TEST_CASE("simulate: minimal and full models move alike where accelerations are unique") {
   for (const char* name : {"two-towers", "incline-slides", "ladder-slides", "double-pendulum"}) {
     INFO(name);
-    SimulationOptions full;
-    full.minimal = false;
-    CHECK(LargestMove(Run(name, 60).scene(), Run(name, 60, full).scene()) < 1e-6);
+    const Simulation full = Run(name, 60, 1.0 / 60, [](Simulation& simulation) { simulation.minimal = false; });
+    CHECK(LargestMove(Run(name, 60).scene(), full.scene()) < 1e-6);
   }
 }
 
@@ -332,9 +324,7 @@ TEST_CASE("simulate: a vice that closes on a block leaves no answer: the error n
 }
 
 TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes", "[slow]") {
-  SimulationOptions options;
-  options.step = 1.0 / 120;
-  Simulation feeder(SceneInDoubles("block-feeder"), options);
+  Simulation feeder(SceneInDoubles("block-feeder"), 1.0 / 120);
   double overlap = 0;
   for (int i = 0; i < 1200; ++i) {
     feeder.Step();
@@ -346,8 +336,7 @@ TEST_CASE("simulate: the block feeder feeds, and the jack lifts on both strokes"
   for (const auto& body : feeder.scene().bodies)
     out += body.name.starts_with("block") && body.position[0] > 0.9;
   CHECK(out >= 2);
-  options.step = 1.0 / 240;
-  Simulation jack(SceneInDoubles("double-action-jack"), options);
+  Simulation jack(SceneInDoubles("double-action-jack"), 1.0 / 240);
   std::vector<double> heights;  // of the load, after every half turn of the crank
   for (int i = 0; i < 2000; ++i) {
     if (i % 250 == 0) heights.push_back(jack.scene().bodies[7].position[1]);
@@ -391,10 +380,9 @@ TEST_CASE("simulate: a block that leaves, but is pressed back within the step, d
     Scene<double> scene = SceneInDoubles("incline-rests");
     scene.bodies[1].velocity = {-0.6, 0.8};  // off the slope, faster than `rest`
     scene.bodies[1].force = {600, -800};     // and back
-    SimulationOptions options;
-    options.minimal = minimal;
-    options.halvings = 0;
-    Simulation simulation(scene, options);
+    Simulation simulation(scene);
+    simulation.minimal = minimal;
+    simulation.halvings = 0;
     simulation.Step();
     CHECK(DriftOf(simulation.scene()).overlap < 1e-9);
     CHECK(simulation.forces().size() == 2);
@@ -437,9 +425,7 @@ TEST_CASE("simulate: a block on the wall of a turning drum presses with m w^2 r,
   block.inertia = 1.0 / 6;
   drum.shapes.push_back({{}, {{1.5, -2}, {2, -2}, {2, 2}, {1.5, 2}}, {0, 0}, 0});
   block.shapes.push_back({{}, {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {0, 0}, 0});
-  SimulationOptions options;
-  options.step = 1.0 / 240;
-  Simulation simulation(scene, options);
+  Simulation simulation(scene, 1.0 / 240);
   for (int i = 0; i < 240; ++i) {
     simulation.Step();
     double pressed = 0;
@@ -454,9 +440,7 @@ TEST_CASE("simulate: a block on the wall of a turning drum presses with m w^2 r,
 }
 
 TEST_CASE("simulate: a pendulum at the bottom pulls with m (g + w^2 l) in the first frame") {
-  SimulationOptions options;
-  options.step = 1.0 / 240;
-  Simulation simulation(SceneInDoubles("pendulum-at-the-bottom"), options);
+  Simulation simulation(SceneInDoubles("pendulum-at-the-bottom"), 1.0 / 240);
   for (int i = 0; i < 2; ++i) {
     simulation.Step();
     Eigen::Vector2d pull(0, 0);
@@ -486,9 +470,7 @@ TEST_CASE("simulate: factors give the answers of a dense A, with friction, witho
     tie.at_b = {-0.475, -0.25};
     tie.direction = {1, 0}, tie.relative_rotation = {1, 0};
     scene.joints.push_back(tie);
-    AssembleOptions<double> options;
-    options.step = 1.0 / 60;
-    const auto model = Assemble(scene, FindContacts(scene), options);
+    const auto model = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/true, 1.0 / 60);
     REQUIRE(model.islands.size() == 1);
     SceneSolver solver;
     const SceneAnswer dense = solver.Solve(model.Problem(0)), sparse = solver.Solve(model.InFactors(0));
@@ -504,10 +486,7 @@ TEST_CASE("assemble: in factors b = J w + c at every level") {
   auto scene = Wall(8);
   scene.bodies.back().velocity = {1e-9, -1e-9};
   for (const Level level : {Level::kForces, Level::kImpulses, Level::kPositions}) {
-    AssembleOptions<double> options;
-    options.level = level;
-    options.step = 1.0 / 60;
-    const auto model = Assemble(scene, FindContacts(scene), options);
+    const auto model = Assemble(scene, FindContacts(scene), level, /*minimal=*/true, 1.0 / 60);
     for (std::size_t i = 0; i < model.islands.size(); ++i) {
       const auto factored = model.InFactors(i);
       const Eigen::VectorXd b = model.Problem(i).b;
@@ -527,9 +506,8 @@ TEST_CASE("simulate: from the forces of the step before as from f = 0", "[slow]"
                                                            {"large/wrecking-ball", 60}};
   for (const auto& [name, steps] : scenes) {
     INFO(name);
-    SimulationOptions cold;
-    cold.warm = false;
-    const Simulation one = Run(name, steps), other = Run(name, steps, cold);
+    const Simulation one = Run(name, steps);
+    const Simulation other = Run(name, steps, 1.0 / 60, [](Simulation& cold) { cold.warm = false; });
     CHECK(one.statistics().warm > 0);
     CHECK(other.statistics().warm == 0);
     CHECK(one.statistics().loose == other.statistics().loose);
@@ -565,9 +543,7 @@ TEST_CASE("simulate: no scene of the plane overlaps by more than its gap", "[slo
     if (path.extension() != ".json" || path.stem() == "scripted-wedge-jams") continue;  // which has no answer
     INFO(path.stem().string());
     const SceneFile file = ReadScene(path);
-    SimulationOptions options;
-    options.step = ToDouble(file.step);
-    Simulation simulation(Round(file.scene), options);
+    Simulation simulation(Round(file.scene), ToDouble(file.step));
     const double gap = simulation.scene().gap > 0 ? simulation.scene().gap : 1e-3;
     double overlap = 0;
     const double seconds = ToDouble(file.seconds) / (testing::Short() ? 4 : 1);
@@ -605,9 +581,7 @@ TEST_CASE("simulate: joined and given pairs of fixed bodies are in no problem, f
     pin.at_a = pin.at_b = {0, 0};
     pin.direction = pin.relative_rotation = {1, 0};
     scene.joints.push_back(pin);
-    AssembleOptions<double> options;
-    options.minimal = minimal;
-    const auto model = Assemble(scene, FindContacts(scene), options);
+    const auto model = Assemble(scene, FindContacts(scene), Level::kForces, minimal);
     REQUIRE(model.islands.size() == 1);
     CHECK(model.islands[0].rows == 20);
   }
@@ -615,7 +589,7 @@ TEST_CASE("simulate: joined and given pairs of fixed bodies are in no problem, f
 
 TEST_CASE("simulate: every problem is shown, and the same run twice is the same") {
   std::int64_t seen = 0;
-  Simulation simulation(SceneInDoubles("falling-boxes"), {}, [&seen](const FrameProblem& met) {
+  Simulation simulation(SceneInDoubles("falling-boxes"), 1.0 / 60, 0, [&seen](const FrameProblem& met) {
     CHECK(met.problem.rows() > 0);
     ++seen;
   });

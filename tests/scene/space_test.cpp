@@ -521,9 +521,7 @@ TEST_CASE(
       CHECK(IsInRange(problem));
       CHECK(DenseOf(solved.model.InFactors(i)).A == problem.A);
     }
-    AssembleOptions<Rational> options;
-    options.minimal = false;
-    const auto full = Assemble(scene, FindContacts(scene), options);
+    const auto full = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/false);
     REQUIRE(full.islands.size() == 1);
     const ExactVector all = ExtendForces(solved.model, solved.f, full);
     CHECK(FindViolation(full.Problem(0), all, FrictionLaw::kCoulomb, solved.bound).value_or("") == "");
@@ -545,19 +543,16 @@ TEST_CASE(
   for (const auto& [x, y] : feet)
     scene.contacts.push_back({0, 1, Exact(x, y, -1), Exact(0, 0, 0), Exact(0, 0, 1)});
   const auto smooth = Assemble(scene, FindContacts(scene));
-  REQUIRE(smooth.omitted.size() == 1);
-  CHECK(smooth.omitted[0].contact == 4);
+  CHECK(smooth.redundant == std::vector{4});
   const auto solved = SolveScene(scene);
-  AssembleOptions<Rational> options;
-  options.minimal = false;
-  const auto full = Assemble(scene, FindContacts(scene), options);
+  const auto full = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/false);
   const ExactVector all = ExtendForces(solved.model, solved.f, full);
   CHECK(FindViolation(full.Problem(0), all, FrictionLaw::kCoulomb, 1).value_or("") == "");
   scene.mu = 1;
-  CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
+  CHECK(Assemble(scene, FindContacts(scene)).redundant.empty());
   scene.mu = 0;
   scene.contacts[4].at_a = Exact(1.5, 0, -1);
-  CHECK(Assemble(scene, FindContacts(scene)).omitted.empty());
+  CHECK(Assemble(scene, FindContacts(scene)).redundant.empty());
 }
 
 TEST_CASE("assemble in space: the direction of slip is a unit vector exactly") {

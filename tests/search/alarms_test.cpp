@@ -337,7 +337,7 @@ std::vector<WrongMethod> WrongMethods() {
   wrong[5].alarm = "baraff-wrong";
   wrong[5].methods.published = [](const ExactProblem& problem, const Request& request) {
     ExactRun run = RunExact(problem, request);
-    run.state.f[0] = -1;
+    run.f[0] = -1;
     return run;
   };
   wrong[6].alarm = "enumerate-none";

@@ -70,9 +70,7 @@ bool HasSeparatingEdge(const std::vector<Vector2<Rational>>& p, const std::vecto
 
 // One problem with all contacts.
 ExactProblem FullModel(const Scene<Rational>& scene) {
-  AssembleOptions<Rational> options;
-  options.minimal = false;
-  const auto model = Assemble(scene, FindContacts(scene), options);
+  const auto model = Assemble(scene, FindContacts(scene), Level::kForces, /*minimal=*/false);
   REQUIRE(model.islands.size() == 1);
   return model.Problem(0);
 }

@@ -24,8 +24,8 @@ std::optional<ExactVector> Complementary(const ExactProblem& problem, unsigned c
     for (int j = 0; j < problem.rows(); ++j) M(i, j) = in_C ? problem.A(i, j) : Rational(i == j ? 1 : 0);
   }
   const auto solved = DecideRange(M, right);
-  const auto* point = std::get_if<RangePoint>(&solved);
-  return point != nullptr ? std::optional(point->x) : std::nullopt;
+  const auto* point = std::get_if<ExactVector>(&solved);
+  return point != nullptr ? std::optional(*point) : std::nullopt;
 }
 
 std::vector<ExactVector> EnumeratedSolutions(const ExactProblem& problem) {
@@ -47,7 +47,7 @@ TEST_CASE("frictionless: every policy finds the enumerated solution, and none gi
       CHECK(equal.verdict.outcome == Outcome::kSolved);
       CHECK(equal.verdict.statistics.give_ups == 0);
       CHECK(equal.verdict.statistics.zero_steps == 0);
-      CHECK(RunExact(problem, {.policy = equal.policies.front()}).state.f == solutions.front());
+      CHECK(RunExact(problem, {.policy = equal.policies.front()}).f == solutions.front());
     }
   }
 }

@@ -150,8 +150,6 @@ TEST_CASE("lemke: a spent budget is the outcome limit") {
 // b is drawn anywhere: (H) can fail, and then the direction of a ray shows it.
 TEST_CASE("lemke: a ray shows that b is not in range(A), it can end a problem that has a solution") {
   LemkeAlgorithm<Rational> lemke;
-  EnumerationOptions first;
-  first.first_solution_only = true;
   int rays = 0, solvable = 0;
   for (std::uint64_t index = 0; index < 400; ++index) {
     ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 2, index);
@@ -173,7 +171,7 @@ TEST_CASE("lemke: a ray shows that b is not in range(A), it can end a problem th
     CHECK(product < 0);
     for (int i = 0; i < 2; ++i) CHECK(abs(v[2 * i + 1]) <= problem.contacts[i].mu * v[2 * i]);
     CHECK_FALSE(IsInRange(problem));
-    solvable += !EnumerateModes(problem, first).solutions.empty();
+    solvable += !EnumerateModes(problem, {}, UntilSolved).solutions.empty();
   }
   CAPTURE(rays, solvable);
   CHECK(rays > 20);

@@ -265,7 +265,7 @@ bool CheckAsInThePlane(const ExactProblem& planar, const Policy& policy) {
   CHECK(ended.counters[Counter::kRedirects] == 0);
   CHECK(ended.counters[Counter::kBreaks] == 0);
   for (int i = 0; i < planar.rows(); ++i)
-    CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.state.f[i])).margin(1e-6));
+    CHECK(ended.f[i / 2 * 3 + i % 2] == Approx(ToDouble(plane.f[i])).margin(1e-6));
   return true;
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("published: of the grid 1320 policies cycle on the reference problem, 
   for (const PolicyClass& equal : RunPolicies(ReferenceProblem(), PlanarGrid(), {})) {
     counts[equal.verdict.outcome] += equal.policies.size();
     if (equal.verdict.outcome != Outcome::kSolved) continue;
-    CHECK(RunExact(ReferenceProblem(), {.policy = equal.policies.front()}).state.f ==
+    CHECK(RunExact(ReferenceProblem(), {.policy = equal.policies.front()}).f ==
           Vector({1, Rational(-6, 7), Rational(25, 14), Rational(-25, 14)}));
     for (const Policy& policy : equal.policies) {
       CHECK((policy.file == File::kYes && policy.drop == Drop::kVariable));
@@ -81,7 +81,7 @@ TEST_CASE("published: the problem of theory 6.3 is solved with a give-up after a
   CHECK(run.verdict.statistics.give_ups >= 1);
   CHECK(run.verdict.statistics.bounces >= 1);
   CHECK(run.verdict.statistics.zero_steps >= 1);
-  CHECK(FindViolation(GiveUpProblem(), run.state.f) == std::nullopt);
+  CHECK(FindViolation(GiveUpProblem(), run.f) == std::nullopt);
 }
 
 TEST_CASE("published: the problem of theory 6.4 cycles under file=yes and kin only") {
@@ -89,11 +89,11 @@ TEST_CASE("published: the problem of theory 6.4 cycles under file=yes and kin on
       MakeProblem({10, 3}, {{6, 2, 5, 5}, {2, 6, 7, 3}, {5, 7, 10, 7}, {5, 3, 7, 10}}, {-7, 9, 1, 9});
   const ExactVector solution =
       Vector({Rational(169, 212), Rational(-845, 106), Rational(5383, 636), Rational(-3073, 636)});
-  CHECK(RunExact(problem, {}).state.f == solution);
+  CHECK(RunExact(problem, {}).f == solution);
   std::size_t cycles = 0;
   for (const PolicyClass& equal : RunPolicies(problem, PlanarGrid(), {})) {
     if (equal.verdict.outcome == Outcome::kSolved) {
-      CHECK(RunExact(problem, {.policy = equal.policies.front()}).state.f == solution);
+      CHECK(RunExact(problem, {.policy = equal.policies.front()}).f == solution);
       continue;
     }
     CHECK(equal.verdict.outcome == Outcome::kCycle);

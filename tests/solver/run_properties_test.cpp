@@ -82,7 +82,7 @@ TEST_CASE("run: at every step a = A f + b, s >= 0, and what is maintained is leg
       ++steps;
       give_ups += pivot.gave_up;
     }
-    CHECK(run.state.f == f);
+    CHECK(run.f == f);
   });
   CHECK(steps > 6000);
   CHECK(give_ups > 30);
@@ -171,7 +171,7 @@ TEST_CASE("run: a solution meets the conditions, a cycle returns to its state an
     const ExactRun run = RunExact(problem, {.policy = policy});
     const Verdict& verdict = run.verdict;
     ++outcomes[verdict.outcome];
-    if (verdict.outcome == Outcome::kSolved) CHECK(FindViolation(problem, run.state.f) == std::nullopt);
+    if (verdict.outcome == Outcome::kSolved) CHECK(FindViolation(problem, run.f) == std::nullopt);
     if (verdict.outcome != Outcome::kCycle) return;
     CHECK(verdict.statistics.drives == verdict.start + verdict.period);
     CHECK(StateAfter(verdict.start, problem, run) == StateAfter(verdict.statistics.drives, problem, run));
@@ -217,7 +217,7 @@ void CheckSameSteps(const ExactRun& run, const ExactRun& other, const std::vecto
     REQUIRE(left.sets == right.sets);
     REQUIRE(right.s * unit[left.driven] == left.s);
   }
-  for (std::size_t i = 0; i < unit.size(); ++i) CHECK(other.state.f[i] * unit[i] == run.state.f[i]);
+  for (std::size_t i = 0; i < unit.size(); ++i) CHECK(other.f[i] * unit[i] == run.f[i]);
 }
 
 TEST_CASE("run: scaling b scales the forces and every step, under every policy") {
@@ -251,7 +251,7 @@ TEST_CASE("run: turning tangents round turns friction round, with ties by contac
                    turned = RunExact(InUnits(problem, turn), {.policy = policy});
     REQUIRE(turned.verdict.statistics == run.verdict.statistics);
     REQUIRE(turned.verdict.outcome == run.verdict.outcome);
-    for (std::size_t i = 0; i < turn.size(); ++i) CHECK(turned.state.f[i] * turn[i] == run.state.f[i]);
+    for (std::size_t i = 0; i < turn.size(); ++i) CHECK(turned.f[i] * turn[i] == run.f[i]);
   });
 }
 
@@ -265,7 +265,7 @@ TEST_CASE("run: contacts in the opposite order, scanned in the opposite order, t
     const ExactRun run = RunExact(problem, {});
     const ExactRun other = RunExact(reversed, {.policy = ParsePolicy("scan=highest")});
     REQUIRE(other.verdict.statistics == run.verdict.statistics);
-    for (std::size_t i = 0; i < rows.size(); ++i) CHECK(other.state.f[i] == run.state.f[rows[i]]);
+    for (std::size_t i = 0; i < rows.size(); ++i) CHECK(other.f[i] == run.f[rows[i]]);
   }
 }
 

@@ -81,10 +81,10 @@ TEST_CASE("theorem 2: v1'x + alpha is positive for A definite, and not negative 
     const int k = size - 1;
     const ExactVector v1 = A.col(k).head(k);
     const auto solved = DecideRange(A.topLeftCorner(k, k), ExactVector(-v1));  // the appendix: always in range
-    const auto* x = std::get_if<RangePoint>(&solved);
+    const auto* x = std::get_if<ExactVector>(&solved);
     REQUIRE(x != nullptr);
     Rational value = A(k, k);
-    for (int i = 0; i < k; ++i) value += v1[i] * x->x[i];
+    for (int i = 0; i < k; ++i) value += v1[i] * (*x)[i];
     if (seed % 2 == 0) {
       CHECK(value > 0);
     } else {
