@@ -28,29 +28,6 @@ constexpr std::size_t kSentences = 12;  // on the page before the table, which h
 
 // ---- What is compared ----
 
-struct Measure {
-  const char* name;
-  const char* meaning;
-  bool by_friction;
-  Ratio (*of)(const Counts&);
-};
-
-constexpr Measure kMeasures[] = {
-    {"loops", "runs that loop, confirmed exactly", true,
-     [](const Counts& c) { return ShareOf(c.Loops(), c.runs); }},
-    {"singular", "runs without a direction of the forces, confirmed exactly", false,
-     [](const Counts& c) { return ShareOf(c.Of(Outcome::kSingular), c.runs); }},
-    {"rays", "runs with a step without limit, confirmed exactly", false,
-     [](const Counts& c) { return ShareOf(c.Of(Outcome::kRay), c.runs); }},
-    {"zero-steps", "runs with a step of length zero", false,
-     [](const Counts& c) { return ShareOf(c.with_zero_steps, c.runs); }},
-    {"give-ups", "runs that gave something up", false,
-     [](const Counts& c) { return ShareOf(c.with_give_ups, c.runs); }},
-    {"misjudged", "audited runs that ended otherwise in exact arithmetic", true,
-     [](const Counts& c) { return ShareOf(c.misjudged, c.audited); }},
-    {"wrong", "runs called solved with forces that are none", false,
-     [](const Counts& c) { return ShareOf(c.wrong, c.runs); }}};
-
 std::map<std::string, Counts, decltype(&NaturalLess)> FrictionsOf(const Tally& tally) {
   std::map<std::string, Counts, decltype(&NaturalLess)> frictions(&NaturalLess);
   for (const auto& [key, stratum] : tally.strata) frictions[key.friction].Add(stratum);
@@ -78,24 +55,30 @@ Ratio StepsAbove(const Tally& tally, int median) {
 }
 
 void AddRates(Comparison& comparison, const TallyKey& key, const Group& a, const Group& b) {
-  const auto add = [&](const std::string& friction, const std::string& measure, const std::string& meaning,
-                       const Ratio& of_a, const Ratio& of_b) {
-    comparison.rates.push_back({key, friction, measure, meaning, of_a, of_b, {}, {}});
+  const auto add = [&](const std::string& friction, const Column& measure, const Ratio& of_a,
+                       const Ratio& of_b) {
+    comparison.rates.push_back({key, friction, measure.name, measure.hint, of_a, of_b, {}, {}});
   };
-  for (const Measure& measure : kMeasures)
-    add("", measure.name, measure.meaning, measure.of(a.counts), measure.of(b.counts));
+  const auto add_all = [&](const std::string& friction, const char* measures, const Counts& of_a,
+                           const Counts& of_b) {
+    const Numbers numbers_a = NumbersOf(Group{{}, {}, of_a}), numbers_b = NumbersOf(Group{{}, {}, of_b});
+    const auto share = [](const Column& measure, const Numbers& numbers) {
+      return std::get<Ratio>(CellOf(measure.from, numbers).value);
+    };
+    const Table table = Described(measures);
+    for (const Column& measure : table.columns)
+      add(friction, measure, share(measure, numbers_a), share(measure, numbers_b));
+  };
+  add_all("", "measures", a.counts, b.counts);
   const int median = PooledMedian(a.tally, b.tally);
-  add("", fmt::format("steps-above-{}", median),
-      fmt::format("runs of more than {} steps, the median of both", median), StepsAbove(a.tally, median),
-      StepsAbove(b.tally, median));
+  add("",
+      {fmt::format("steps-above-{}", median),
+       fmt::format("runs of more than {} steps, the median of both", median)},
+      StepsAbove(a.tally, median), StepsAbove(b.tally, median));
   const auto frictions = FrictionsOf(b.tally);
   for (const auto& [friction, counts] : FrictionsOf(a.tally)) {
     const auto found = frictions.find(friction);
-    if (found == frictions.end()) continue;
-    for (const Measure& measure : kMeasures) {
-      if (measure.by_friction)
-        add(friction, measure.name, measure.meaning, measure.of(counts), measure.of(found->second));
-    }
+    if (found != frictions.end()) add_all(friction, "measures-by-friction", counts, found->second);
   }
 }
 

@@ -164,6 +164,7 @@ Json ToJson(const Told& told) {
         if (!text->empty() && part.what != "table") json[key] = Plain(*text);
       for (const auto& [line, more] : part.lines)
         json["lines"].push_back(more.empty() ? Json(Plain(line)) : Json({Plain(line), more}));
+      if (part.what == "table") json["tables"] = Json::array();
       for (const Table& table : part.tables) {
         Json columns = Json::array();
         for (const Column& column : table.columns)
