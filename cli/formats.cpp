@@ -11,8 +11,8 @@
 #include "cli/shared.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
-#include "corpus/record/asymmetry.h"
 #include "corpus/named_rows.h"
+#include "corpus/record/asymmetry.h"
 #include "search/campaign.h"
 #include "search/under_test/reproducer.h"
 

@@ -105,7 +105,7 @@ int CompareTested(const ReportVerb& o, const std::vector<std::string>& files) {
   }
   const SolversCompared compared = CompareSolvers(stores, files);
   if (!o.folder.empty()) TellAside(WriteSolvers(compared, o.folder, OccupiedIf(o.replace)));
-  std::cout << (o.json ? JsonText(SolversToJson(compared)) + "\n" : SolversText(compared));
+  std::cout << (o.json ? JsonText(SolversToJson(compared)) + "\n" : ToText(Tell(compared), "text"));
   return kExitDone;
 }
 

@@ -16,9 +16,9 @@
 #include "certify/request/request.h"
 #include "cli/help.h"
 #include "corpus/json.h"
+#include "corpus/named_rows.h"
 #include "corpus/record/asymmetry.h"
 #include "corpus/record/factors.h"
-#include "corpus/named_rows.h"
 
 namespace stiction {
 namespace {

@@ -9,7 +9,7 @@ namespace stiction {
 namespace {
 
 std::string FilledLine(const std::string& line, const Blanks& blanks) {
-  static const std::regex place(R"(@(?:([A-Z_]+)|([a-z-]+)\?([^|@]*)\|([^@]*))@)");
+  static const std::regex place(R"(@(?:([A-Z_]+)|([a-z_-]+)\?([^|@]*)\|([^@]*))@)");
   std::string filled;
   auto rest = line.begin();
   for (std::sregex_iterator at(line.begin(), line.end(), place); at != std::sregex_iterator(); ++at) {

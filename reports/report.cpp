@@ -11,8 +11,6 @@
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
 #include "corpus/json.h"
-#include "reports/page/figures.h"
-#include "reports/page/measured_page.h"
 #include "reports/page/page.h"
 #include "reports/papers/latex.h"
 #include "reports/pictures/finding_picture.h"
@@ -96,18 +94,31 @@ void WriteTables(ReportFiles& folder, const std::string& place, const std::vecto
   for (const Table& table : tables) folder.Write(place + table.name + ".csv", ToCsv(table));
 }
 
+// What pages say, as data, too; `measured` is the one page of benchmarks alone.
+void WritePages(ReportFiles& folder, const ReportContent& content, const std::vector<std::string>& pages) {
+  const Told told = Tell(content, pages);
+  const std::vector<Table> figures = Figures(content);
+  WriteTables(folder, "figures/", figures);
+  folder.Write("report.json", JsonText(ToJson(told), 1) + "\n");
+  for (const std::string& name : pages) {
+    const std::string page =
+        name == "findings" ? FindingsPage(content, told) : Page(name, content, told, figures);
+    folder.Write(name == "measured" ? "index.html" : name + ".html", page);
+  }
+}
+
 }  // namespace
 
 std::filesystem::path WriteMeasured(const std::filesystem::path& directory, Occupied occupied,
                                     const ReportExtras& extras) {
-  const std::vector<RungLine> lines = ReadAllRungs(extras.benches);
+  ReportContent content;
+  content.rungs = ReadAllRungs(extras.benches);
+  content.benches = extras.benches;
+  content.frontiers = extras.frontiers;
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   WriteMeasures(folder, extras);
-  std::vector<Table> figures = {RungsFigure(lines), FrontiersFigure(extras.frontiers)};
-  std::erase_if(figures, [](const Table& figure) { return figure.rows.empty(); });
-  WriteTables(folder, "figures/", figures);
-  folder.Write("index.html", MeasuredPage(lines, extras.frontiers, extras.benches, figures));
+  WritePages(folder, content, {"measured"});
   folder.WriteSums();
   return whole.Commit();
 }
@@ -124,11 +135,9 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   ReportFiles folder(whole, extras.show);
   const std::vector<Finding> findings = store.Findings();
   content.identity = store.identity();
-  content.units = store.Units().Count();
   content.blocks = static_cast<std::int64_t>(store.Blocks().size());
-  content.total = store.Total();
-  content.work = store.TotalWork();
-  content.discoveries = Discoveries(content.total, findings);
+  content.totals = TotalsOf(store);
+  content.discoveries = Discoveries(content.totals.record, findings);
   LeaveFilesTo(content.discoveries, extras.files);
   folder.ExpectFindings(std::count_if(content.discoveries.begin(), content.discoveries.end(),
                                       [](const Discovery& discovery) { return discovery.HasFiles(); }));
@@ -141,9 +150,9 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
     discovery.files.picture = "findings/" + FileName(discovery.signature) + ".svg";
     folder.Write(discovery.files.picture, picture);
   }
-  WriteTables(folder, "", CampaignTables(content.total, content.discoveries));
+  WriteTables(folder, "", CampaignTables(content.totals.record, content.discoveries));
   whole.Write("work.csv",
-              ToCsv(WorkTable(content.work)));  // not among the sums: equal searches differ in it alone
+              ToCsv(WorkTable(content.totals.work)));  // not among the sums: equal searches differ in it alone
   folder.Write("citation.bib", Citation(store));
   folder.Write("campaign.json", CampaignFile(content.identity));
   if (content.since) WriteTables(folder, "", {SinceTable(*content.since, content.discoveries)});
@@ -151,12 +160,8 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   if (extras.latex) {
     for (const auto& [name, text] : LatexFiles(store)) folder.Write(name, text);
   }
-  const std::vector<Table> figures = Figures(content);
-  WriteTables(folder, "figures/", figures);
   content.player = WritePlayer(folder, content.discoveries, extras);
-  folder.Write("index.html", FrontPage(content, figures));
-  folder.Write("results.html", ResultsPage(content, figures));
-  folder.Write("findings.html", FindingsPage(content));
+  WritePages(folder, content, {"index", "results", "findings"});
   folder.WriteSums();
   return whole.Commit();
 }

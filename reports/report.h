@@ -1,26 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report: what a store holds, as a page for people, tables for programs, and files to replay and check.
-//
-//   index.html                    what was found: a page that needs nothing else, as the others
-//   results.html                  all that was counted
-//   findings.html                 all findings, each in numbers
-//   replay.html                   the simplest loop, step by step, if there is a finding that plays
-//   statistics.csv verdicts.csv   what was counted (tables/campaign_tables.h)
-//   steps.csv findings.csv agreement.csv solutions.csv
-//   figures/NAME.csv              what the figures of the page draw (figures.h)
-//   campaign.json                 what was searched, for another search
-//   frontiers.csv                 the worst problems that are known, if records were given (frontiers.h)
-//   bench/NAME                    the files of bench, as they were given
-//   since.csv                     what changed since an earlier report, if one was given (since.h)
-//   citation.bib                  how to cite it (latex.h)
-//   SHA256SUMS                    of every file but itself
-//   findings/NAME.json            the minimized problem; as found while there is none
-//   findings/NAME.svg             the scene of the problem as found, if it has one
-//   findings/NAME.original.json   the problem as found
-//   findings/NAME.certificate.json  of the minimized problem, otherwise of the problem as found
-//   findings/NAME.existence.certificate.json            that NAME.json has a solution
-//   findings/NAME.original.existence.certificate.json   likewise, of NAME.original.json if that is another
-//   problem
+// files.md says what each file is.
 
 #ifndef STICTION_REPORTS_REPORT_H_
 #define STICTION_REPORTS_REPORT_H_

@@ -11,9 +11,9 @@
 
 namespace stiction {
 
-// The first answer that is solved, or a better one than the first: one that is not undecided, where that is. Each
-// run is a function without arguments; none is begun once the limits stop them. The counters of the first are
-// added to those of what takes its place.
+// The first answer that is solved, or a better one than the first: one that is not undecided, where that is.
+// Each run is a function without arguments; none is begun once the limits stop them. The counters of the first
+// are added to those of what takes its place.
 template <class First, class... Others>
 auto InTurn(const Limits& limits, First first, Others... others) {
   auto best = first();

@@ -142,8 +142,8 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& requ
     complete.method = "complete";
     return Solve(problem, complete);
   };
-  Answer<Rational> answer =
-      InTurn(request.limits, run_cells, [&] { return RunPublishedBriefly(problem, request); }, run_complete);
+  Answer<Rational> answer = InTurn(
+      request.limits, run_cells, [&] { return RunPublishedBriefly(problem, request); }, run_complete);
   answer.counters = counters;
   return answer;
 }

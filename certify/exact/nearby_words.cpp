@@ -97,9 +97,9 @@ std::vector<std::vector<RankedMode>> RankModes(const ExactProblem& problem, cons
     auto& modes = ranked.emplace_back();
     for (const Mode mode : ModesOf(contact)) {
       const auto& [kind, mu, slip] = scaled.numbers.contacts[i];
-      modes.emplace_back(ConditionsBroken(mode, mu, slip[0], f[row], rough ? f[row + 1] : 0, a[row],
-                                          rough ? a[row + 1] : 0),
-                         mode);
+      modes.emplace_back(
+          ConditionsBroken(mode, mu, slip[0], f[row], rough ? f[row + 1] : 0, a[row], rough ? a[row + 1] : 0),
+          mode);
     }
     std::ranges::stable_sort(modes, {}, &RankedMode::first);
     while (modes.size() > 1 && modes.back().first > kNear) modes.pop_back();

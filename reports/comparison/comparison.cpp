@@ -17,36 +17,16 @@
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "reports/comparison/comparison_page.h"
+#include "reports/comparison/comparison_txt.h"
 #include "reports/report_files.h"
 #include "reports/tables/groups.h"
 
 namespace stiction {
 namespace {
 
+constexpr std::size_t kSentences = 12;  // on the page before the table, which has all differences
+
 // ---- What is compared ----
-
-struct Measure {
-  const char* name;
-  const char* meaning;
-  bool by_friction;
-  Ratio (*of)(const Counts&);
-};
-
-constexpr Measure kMeasures[] = {
-    {"loops", "runs that loop, confirmed exactly", true,
-     [](const Counts& c) { return ShareOf(c.Loops(), c.runs); }},
-    {"singular", "runs without a direction of the forces, confirmed exactly", false,
-     [](const Counts& c) { return ShareOf(c.Of(Outcome::kSingular), c.runs); }},
-    {"rays", "runs with a step without limit, confirmed exactly", false,
-     [](const Counts& c) { return ShareOf(c.Of(Outcome::kRay), c.runs); }},
-    {"zero-steps", "runs with a step of length zero", false,
-     [](const Counts& c) { return ShareOf(c.with_zero_steps, c.runs); }},
-    {"give-ups", "runs that gave something up", false,
-     [](const Counts& c) { return ShareOf(c.with_give_ups, c.runs); }},
-    {"misjudged", "audited runs that ended otherwise in exact arithmetic", true,
-     [](const Counts& c) { return ShareOf(c.misjudged, c.audited); }},
-    {"wrong", "runs called solved with forces that are none", false,
-     [](const Counts& c) { return ShareOf(c.wrong, c.runs); }}};
 
 std::map<std::string, Counts, decltype(&NaturalLess)> FrictionsOf(const Tally& tally) {
   std::map<std::string, Counts, decltype(&NaturalLess)> frictions(&NaturalLess);
@@ -75,24 +55,30 @@ Ratio StepsAbove(const Tally& tally, int median) {
 }
 
 void AddRates(Comparison& comparison, const TallyKey& key, const Group& a, const Group& b) {
-  const auto add = [&](const std::string& friction, const std::string& measure, const std::string& meaning,
-                       const Ratio& of_a, const Ratio& of_b) {
-    comparison.rates.push_back({key, friction, measure, meaning, of_a, of_b, {}, {}});
+  const auto add = [&](const std::string& friction, const Column& measure, const Ratio& of_a,
+                       const Ratio& of_b) {
+    comparison.rates.push_back({key, friction, measure.name, measure.hint, of_a, of_b, {}, {}});
   };
-  for (const Measure& measure : kMeasures)
-    add("", measure.name, measure.meaning, measure.of(a.counts), measure.of(b.counts));
+  const auto add_all = [&](const std::string& friction, const char* measures, const Counts& of_a,
+                           const Counts& of_b) {
+    const Numbers numbers_a = NumbersOf(Group{{}, {}, of_a}), numbers_b = NumbersOf(Group{{}, {}, of_b});
+    const auto share = [](const Column& measure, const Numbers& numbers) {
+      return std::get<Ratio>(CellOf(measure.from, numbers).value);
+    };
+    const Table table = Described(measures);
+    for (const Column& measure : table.columns)
+      add(friction, measure, share(measure, numbers_a), share(measure, numbers_b));
+  };
+  add_all("", "measures", a.counts, b.counts);
   const int median = PooledMedian(a.tally, b.tally);
-  add("", fmt::format("steps-above-{}", median),
-      fmt::format("runs of more than {} steps, the median of both", median), StepsAbove(a.tally, median),
-      StepsAbove(b.tally, median));
+  add("",
+      {fmt::format("steps-above-{}", median),
+       fmt::format("runs of more than {} steps, the median of both", median)},
+      StepsAbove(a.tally, median), StepsAbove(b.tally, median));
   const auto frictions = FrictionsOf(b.tally);
   for (const auto& [friction, counts] : FrictionsOf(a.tally)) {
     const auto found = frictions.find(friction);
-    if (found == frictions.end()) continue;
-    for (const Measure& measure : kMeasures) {
-      if (measure.by_friction)
-        add(friction, measure.name, measure.meaning, measure.of(counts), measure.of(found->second));
-    }
+    if (found != frictions.end()) add_all(friction, "measures-by-friction", counts, found->second);
   }
 }
 
@@ -135,12 +121,11 @@ std::vector<std::string> Differences(const CampaignIdentity& a, const CampaignId
   return lines;
 }
 
-// ---- Text ----
+// ---- In words ----
 
 double ValueOf(const Ratio& t) { return static_cast<double>(t.count) / static_cast<double>(t.of); }
 
-}  // namespace
-
+// "psd, 2 contacts", and what is not as usual.
 std::string NameOf(const TallyKey& key) {
   std::string name = fmt::format("{}, {}", key.generator, Counted(key.contacts, "contact"));
   if (key.policy != "paper") name += ", policy " + key.policy;
@@ -162,6 +147,7 @@ std::string SentenceOf(const ComparedRate& rate) {
                      MoreInA(rate) ? "A" : "B", side(rate.a), side(rate.b), PText(*rate.adjusted));
 }
 
+// Differences that are more than noise, the surest first.
 std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison) {
   std::vector<const ComparedRate*> beyond;
   for (const ComparedRate& rate : comparison.rates) {
@@ -173,35 +159,14 @@ std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison) {
   return beyond;
 }
 
-std::string NoiseSentence(const Comparison& comparison) {
-  const std::size_t beyond = BeyondNoise(comparison).size();
-  const std::string tests = Grouped(comparison.tests);
-  return beyond == 0 ? fmt::format("None of {} tests finds a difference that is more than noise.", tests)
-                     : fmt::format("{} of {} tests find a difference that is more than noise:", beyond, tests);
-}
-
-std::string AboutTests() {
-  return "Fisher's exact test of each rate, two-sided; steps by the runs above the median of both together. p "
-         "is corrected by Holm for all tests that the counts leave open; at most 0.05 is called more than "
-         "noise. In brackets: exact intervals at 95 %.";
-}
-
-std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name) {
-  if (keys.empty()) return "";
+// "psd (2, 3 contacts); ..."
+std::string Named(const std::vector<TallyKey>& keys) {
   std::map<std::string, std::set<int>> generators;
   for (const TallyKey& key : keys) generators[key.generator].insert(key.contacts);
   std::string text;
   for (const auto& [generator, contacts] : generators)
     text += fmt::format("{}{} ({} {})", text.empty() ? "" : "; ", generator, fmt::join(contacts, ", "),
                         contacts == std::set{1} ? "contact" : "contacts");
-  return fmt::format("Only in {}, and not compared: {}.", name, text);
-}
-
-namespace {
-
-std::string NoiseText(const Comparison& c) {
-  std::string text = Paragraph(NoiseSentence(c), 0);
-  for (const ComparedRate* rate : BeyondNoise(c)) text += Paragraph(SentenceOf(*rate));
   return text;
 }
 
@@ -235,7 +200,7 @@ std::vector<std::string> StepCells(const ComparedSteps::Bins& bins, std::int64_t
   return {fmt::format("{:.2f}", static_cast<double>(sum) / static_cast<double>(runs)), quantiles};
 }
 
-std::string StepTable(const Comparison& c) {
+std::vector<Table> StepTables(const Comparison& c) {
   std::map<TallyKey, std::string> p;
   for (const ComparedRate& rate : c.rates) {
     if (rate.measure.starts_with("steps-above") && rate.adjusted) p[rate.key] = PText(*rate.adjusted);
@@ -246,7 +211,38 @@ std::string StepTable(const Comparison& c) {
     const auto a = StepCells(steps.a, steps.sum_a), b = StepCells(steps.b, steps.sum_b);
     table.Add({steps.key.policy, RowName(steps.key), a[0], a[1], b[0], b[1], p[steps.key]});
   }
-  return TextByPolicy(table, "Policy {}:");
+  return SplitByPolicy(table);
+}
+
+TableCell CountCell(const Ratio& ratio) {
+  return {fmt::format("{} of {}", Grouped(ratio.count), Grouped(ratio.of)), Shown(ratio),
+          ratio.count == 0 ? "zero" : ""};
+}
+
+Table NoiseTable(const std::vector<const ComparedRate*>& beyond) {
+  Table table = Described("noise");
+  for (const ComparedRate* rate : beyond) {
+    table.Add({NameOf(rate->key), rate->friction.empty() ? "any" : rate->friction, rate->meaning,
+               MoreInA(*rate) ? "A" : "B", CountCell(rate->a), CountCell(rate->b), PText(*rate->p),
+               PText(*rate->adjusted)});
+  }
+  return table;
+}
+
+// By policy, generator and contacts.
+Table ComparedLoopsTable(const Comparison& comparison, bool in_text) {
+  Table table = Described(in_text ? "compared-loops-in-text" : "compared-loops");
+  for (const auto& [key, friction, measure, meaning, a, b, p, adjusted] : comparison.rates) {
+    if (measure != "loops" || !friction.empty()) continue;
+    std::vector<TableCell> cells = {key.policy, RowName(key)};
+    for (const Ratio& side : {a, b}) {
+      if (in_text) cells.emplace_back(side.count);
+      cells.emplace_back(RateOf(side.count, side.of));
+    }
+    cells.emplace_back(adjusted ? PText(*adjusted) : "");
+    table.Add(std::move(cells));
+  }
+  return table;
 }
 
 Group GroupOf(const TallyKey& key) {
@@ -296,39 +292,32 @@ Comparison Compare(const Store& a, const std::string& file_a, const Store& b, co
   return comparison;
 }
 
-std::string ComparisonText(const Comparison& c, const std::string& file_a, const std::string& file_b) {
-  std::string text = Paragraph("A: " + file_a, 0) + Paragraph("B: " + file_b, 0) + "\n" +
-                     Heading("How the two campaigns differ");
-  for (const std::string& line : c.differences) text += Paragraph(line);
-  text += "\n" + Heading("What is more than noise") + NoiseText(c) + Paragraph(AboutTests(), 0);
-  for (const std::string& only : {OnlyIn(c.only_a, "A"), OnlyIn(c.only_b, "B")})
-    text += only.empty() ? "" : Paragraph(only, 0);
-  text += "\n" + Heading("Loops, confirmed exactly") +
-          TextByPolicy(Select(ComparedLoopsTable(c),
-                              "policy generator,_contacts #A=loops_A A=in_a_million_runs #B=loops_B "
-                              "B=in_a_million_runs p",
-                              ""),
-                       "Policy {}:");
-  return text + "\n" + Heading("Steps of a run: mean and quantiles") + StepTable(c);
+Told Tell(const Comparison& c, const std::string& file_a, const std::string& file_b) {
+  const std::vector<const ComparedRate*> beyond = BeyondNoise(c);
+  Facts facts{{{"beyond", std::ssize(beyond)}, {"tests", c.tests}},
+              {{"file_a", file_a},
+               {"file_b", file_b},
+               {"word_a", ShellWord(file_a)},
+               {"word_b", ShellWord(file_b)},
+               {"only_a", Named(c.only_a)},
+               {"only_b", Named(c.only_b)}}};
+  for (const std::string& line : c.differences) facts.lists["differences"].emplace_back(line, "");
+  Lines &all = facts.lists["noise"], &first = facts.lists["first_noise"];
+  for (const ComparedRate* rate : beyond) all.emplace_back(SentenceOf(*rate), "");
+  first = all;
+  if (all.size() > kSentences) {
+    first.resize(kSentences);
+    first.emplace_back(fmt::format("and {} more, in the table.", all.size() - kSentences), "");
+  }
+  facts.tables = {{"noise", [&] { return std::vector<Table>{NoiseTable(beyond)}; }},
+                  {"loops", [&] { return std::vector<Table>{ComparedLoopsTable(c, false)}; }},
+                  {"loops_by_policy", [&] { return SplitByPolicy(ComparedLoopsTable(c, true)); }},
+                  {"steps", [&] { return StepTables(c); }}};
+  return Tell(kComparisonTxt, facts, {"text", "page", "page-lead"});
 }
 
-Table ComparedLoopsTable(const Comparison& comparison) {
-  Table table{"loops",
-              "Loops, confirmed exactly",
-              {{"policy", "", kText},
-               {"generator, contacts", "", kText},
-               {"A", "runs that loop; below: in a million runs, with the exact interval at 95 %"},
-               {"B", "likewise"},
-               {"p", "corrected; nothing where no difference is possible"}},
-              {},
-              {},
-              2};
-  for (const auto& [key, friction, measure, meaning, a, b, p, adjusted] : comparison.rates) {
-    if (measure != "loops" || !friction.empty()) continue;
-    table.Add({key.policy, RowName(key), RateOf(a.count, a.of), RateOf(b.count, b.of),
-               adjusted ? PText(*adjusted) : ""});
-  }
-  return table;
+std::string ComparisonText(const Comparison& c, const std::string& file_a, const std::string& file_b) {
+  return ToText(Tell(c, file_a, file_b), "text");
 }
 
 Table ComparisonTable(const Comparison& comparison) {
@@ -392,10 +381,12 @@ std::filesystem::path WriteComparison(const Comparison& comparison, const std::s
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   const FixedTextWidth of_the_file(kUsualTextWidth);
-  folder.Write("comparison.txt", ComparisonText(comparison, file_a, file_b));
-  folder.Write("index.html", ComparisonPage(comparison, file_a, file_b));
-  folder.Write("comparison.csv", ToCsv(ComparisonTable(comparison)));
-  folder.Write("comparison_steps.csv", ToCsv(ComparisonStepsTable(comparison)));
+  const Told told = Tell(comparison, file_a, file_b);
+  const std::vector<Table> tables = {ComparisonTable(comparison), ComparisonStepsTable(comparison)};
+  folder.Write("comparison.txt", ToText(told, "text"));
+  folder.Write("index.html", ComparisonPage("stiction: two campaigns side by side",
+                                            "What differs, and is it more than noise?", told, tables));
+  for (const Table& table : tables) folder.Write(table.name + ".csv", ToCsv(table));
   folder.WriteSums();
   return whole.Commit();
 }

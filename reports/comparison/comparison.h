@@ -21,6 +21,7 @@
 #include "corpus/store/store.h"
 #include "corpus/whole_folder.h"
 #include "reports/comparison/exact_tests.h"
+#include "reports/told/told.h"
 
 namespace stiction {
 
@@ -61,31 +62,16 @@ struct Comparison {
 // generator, size and policy that both have run.
 Comparison Compare(const Store& a, const std::string& file_a, const Store& b, const std::string& file_b);
 
-// As plain text, `a` and `b` being the names of the two.
+// For `text` and `page`, `a` and `b` being the names of the two (told/told.h).
+Told Tell(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
+// As plain text.
 std::string ComparisonText(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
 // A row per rate that was compared.
 Table ComparisonTable(const Comparison& comparison);
-// Loops by policy, generator and contacts, for people.
-Table ComparedLoopsTable(const Comparison& comparison);
 // Every rate, with what differs by design, and what one alone has.
 Json ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
 Table ComparisonStepsTable(const Comparison& comparison);
-
-// ---- In words, for text and page alike ----
-
-// Differences that are more than noise, the surest first.
-std::vector<const ComparedRate*> BeyondNoise(const Comparison& comparison);
-bool MoreInA(const ComparedRate& rate);
-// "psd, 2 contacts", and what is not as usual.
-std::string NameOf(const TallyKey& key);
-std::string PText(double p);
-std::string SentenceOf(const ComparedRate& rate);
-// How many tests find a difference that is more than noise.
-std::string NoiseSentence(const Comparison& comparison);
-std::string AboutTests();
-// What was counted in the store of this name alone; empty: nothing.
-std::string OnlyIn(const std::vector<TallyKey>& keys, const char* name);
 
 // index.html (comparison_page.h), comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a
 // whole. Returns where a directory with files of others was moved to, if so.

@@ -14,14 +14,14 @@
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
 #include "reports/comparison/comparison_page.h"
+#include "reports/comparison/solvers_txt.h"
 #include "reports/report_files.h"
 
 namespace stiction {
 namespace {
 
-using CountsByName = std::map<std::string, std::int64_t>;  // of UnderTestTally, "silent_wrong"
 // The first is "all"; then by generator and number of contacts.
-using CountsByFamily = std::map<std::pair<std::string, int>, CountsByName>;
+using CountsByFamily = std::map<std::pair<std::string, int>, Numbers>;
 
 constexpr const char* kAllProblems = "all";
 
@@ -42,7 +42,9 @@ CountsByFamily CountsOf(const Record& record) {
       ForEachCounter(
           tally, [&counts = families[family]](const char* name, std::int64_t value) { counts[name] += value; });
   }
-  families[{"", 0}];  // of an empty store
+  ForEachCounter(UnderTestTally{}, [&counts = families[{"", 0}]](const char* name, std::int64_t) {
+    counts.try_emplace(name, 0);  // of an empty store
+  });
   return families;
 }
 
@@ -83,27 +85,24 @@ std::vector<std::string> DifferencesOfSearches(const std::vector<Store>& stores,
 
 Table SolversTable(const std::vector<Store>& stores, const std::vector<std::string>& files,
                    const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
-  Table table{"solvers", "Solvers", Columns("solver* store* law* accuracy* problems refused unjudged")};
-  table.columns.insert(table.columns.begin() + 5,
-                       {"passed,of,share,low,high", "with the exact interval at 95 %", false, "passed"});
+  Table table = Described("solvers");
   for (std::size_t i = 0; i < stores.size(); ++i) {
     const Json solver = SolverOf(stores[i].identity());
-    CountsByName of = counts[i].at({"", 0});
-    table.Add({names[i], files[i], solver["law"].get<std::string>(), solver["accuracy"].get<std::string>(),
-               of["problems"], ShareOf(of["passed"], of["problems"]), of["refused"], of["unjudged"]});
+    table.AddCounted(
+        {names[i], files[i], solver["law"].get<std::string>(), solver["accuracy"].get<std::string>()},
+        counts[i].at({"", 0}));
   }
   return table;
 }
 
 Table FailuresTable(const std::vector<std::string>& names, const std::vector<CountsByFamily>& counts) {
-  Table table{"failures", "Failures, in a million problems", Columns("family* solver* problems")};
-  table.keys = 2;
-  const std::vector<std::string> kinds = KindColumns();
-  for (const std::string& kind : kinds) {
+  Table table{"failures", "Failures, in a million problems", Columns("family* solver* problems"), {}, {}, 2};
+  table.columns.back().from = "problems";
+  for (const std::string& kind : KindColumns()) {
     std::string head = kind;
     std::ranges::replace(head, '_', '-');
     table.columns.push_back({fmt::format("{0},,{0}_rate,{0}_low,{0}_high", kind),
-                             "in a million, with the exact interval at 95 %", false, head});
+                             "in a million, with the exact interval at 95 %", false, head, kind + "/problems"});
   }
   CountsByFamily all;
   for (const CountsByFamily& of : counts) all.insert(of.begin(), of.end());
@@ -111,12 +110,9 @@ Table FailuresTable(const std::vector<std::string>& names, const std::vector<Cou
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto found = counts[i].find(family);
       if (found == counts[i].end()) continue;
-      CountsByName of = found->second;
       const std::string name =
           family.first.empty() ? kAllProblems : fmt::format("{}, {}", family.first, family.second);
-      std::vector<TableCell> cells = {name, names[i], of["problems"]};
-      for (const std::string& kind : kinds) cells.emplace_back(RateOf(of[kind], of["problems"]));
-      table.Add(cells);
+      table.AddCounted({name, names[i]}, found->second);
     }
   }
   return table;
@@ -164,13 +160,6 @@ Table SmallestTable(const std::vector<Store>& stores, const std::vector<std::str
   return table;
 }
 
-constexpr const char* kAboutRates =
-    "Each solver by its own law, to the accuracy that it states. In brackets: exact intervals at 95 %. Given "
-    "up "
-    "where no solution is known (refused), and called solved where what the law asks for is not known "
-    "(unjudged), "
-    "are no failures.";
-
 }  // namespace
 
 SolversCompared CompareSolvers(const std::vector<Store>& stores, const std::vector<std::string>& files) {
@@ -181,12 +170,13 @@ SolversCompared CompareSolvers(const std::vector<Store>& stores, const std::vect
           FailuresTable(names, counts), SmallestTable(stores, names)};
 }
 
-std::string SolversText(const SolversCompared& c) {
-  std::string text = Heading("Solvers") + ToText(c.solvers) + "\n" + Heading("How the searches differ besides");
-  for (const std::string& line : c.differences) text += Paragraph(line);
-  text += "\n" + Heading(c.failures.caption) + Paragraph(kAboutRates, 0) + ToText(c.failures);
-  if (!c.smallest.rows.empty()) text += "\n" + Heading(c.smallest.caption) + ToText(c.smallest);
-  return text;
+Told Tell(const SolversCompared& c) {
+  Facts facts{{{"failed", std::ssize(c.smallest.rows)}}};
+  for (const std::string& file : c.files) facts.texts["files"] += " " + ShellWord(file);
+  for (const std::string& line : c.differences) facts.lists["differences"].emplace_back(line, "");
+  for (const Table* table : {&c.solvers, &c.failures, &c.smallest})
+    facts.tables[table->name] = [table] { return std::vector<Table>{*table}; };
+  return Tell(kSolversTxt, facts, {"text", "page"});
 }
 
 Json SolversToJson(const SolversCompared& c) {
@@ -201,8 +191,10 @@ std::filesystem::path WriteSolvers(const SolversCompared& compared, const std::f
   WholeFolder whole(directory, "report", occupied);
   ReportFiles folder(whole);
   const FixedTextWidth of_the_file(kUsualTextWidth);
-  folder.Write("solvers.txt", SolversText(compared));
-  folder.Write("index.html", SolversPage(compared, kAboutRates));
+  const Told told = Tell(compared);
+  folder.Write("solvers.txt", ToText(told, "text"));
+  folder.Write("index.html", ComparisonPage("stiction: solvers side by side",
+                                            "Which solver fails, how, and how often?", told));
   for (const Table* table : {&compared.solvers, &compared.failures, &compared.smallest})
     folder.Write(table->name + ".csv", ToCsv(*table));
   folder.WriteSums();

@@ -12,7 +12,7 @@
 #include "corpus/json_text.h"
 #include "corpus/store/store.h"
 #include "corpus/whole_folder.h"
-#include "reports/tables/table.h"
+#include "reports/told/told.h"
 
 namespace stiction {
 
@@ -27,7 +27,8 @@ struct SolversCompared {
 // Requires at least one store, each of a search that tests a solver.
 SolversCompared CompareSolvers(const std::vector<Store>& stores, const std::vector<std::string>& files);
 
-std::string SolversText(const SolversCompared& compared);
+// For `text` and `page` (told/told.h).
+Told Tell(const SolversCompared& compared);
 // The tables as columns and rows.
 Json SolversToJson(const SolversCompared& compared);
 // index.html, solvers.txt, a CSV per table and SHA256SUMS, as a whole, as WriteComparison (comparison.h).

@@ -44,19 +44,6 @@ std::string Escaped(std::string_view text) {
   return out;
 }
 
-// Two or three digits: 0.012, 1.23, 12.3, 123, 1,234.
-std::string ThreeDigits(double value) {
-  if (value == 0) return "0";
-  if (value < 1) return fmt::format("{:#.2g}", value);
-  if (value < 10) return fmt::format("{:.2f}", value);
-  if (value < 100) return fmt::format("{:.1f}", value);
-  return Grouped(static_cast<std::int64_t>(value + 0.5));
-}
-
-std::string Scaled(double scale, std::int64_t count, std::int64_t total) {
-  return total == 0 ? "" : ThreeDigits(scale * static_cast<double>(count) / static_cast<double>(total));
-}
-
 }  // namespace
 
 Html& Html::operator+=(const Html& more) {
@@ -105,10 +92,14 @@ std::string Fixed(double x, int decimals) { return fmt::format("{:.{}f}", x, dec
 
 std::string Significant(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
 
-std::string Percent(std::int64_t count, std::int64_t total) {
-  return total == 0 ? "" : Scaled(100, count, total) + "%";
+std::string Mean(std::int64_t sum, std::int64_t count) {
+  if (count == 0) return "";
+  const double value = static_cast<double>(sum) / static_cast<double>(count);
+  if (value == 0) return "0";
+  if (value < 1) return fmt::format("{:#.2g}", value);
+  if (value < 10) return fmt::format("{:.2f}", value);
+  if (value < 100) return fmt::format("{:.1f}", value);
+  return Grouped(static_cast<std::int64_t>(value + 0.5));
 }
-
-std::string Mean(std::int64_t sum, std::int64_t count) { return Scaled(1, sum, count); }
 
 }  // namespace stiction

@@ -67,8 +67,7 @@ std::string Significant(double x, int digits = 5);
 
 // ---- Numbers for people ----
 
-// count in percent of total, sum per count, two or three digits; "" of nothing.
-std::string Percent(std::int64_t count, std::int64_t total);
+// Sum per count, in two or three digits; "" of nothing.
 std::string Mean(std::int64_t sum, std::int64_t count);
 
 }  // namespace stiction

@@ -6,7 +6,6 @@
 
 #include "corpus/grouped.h"
 #include "corpus/rational.h"
-#include "reports/page/page.h"
 
 namespace stiction {
 namespace {
@@ -26,21 +25,17 @@ TableCell NumberOf(const std::string& value) {
 
 const char* Worse(const FrontierLine& line) { return line.high ? "higher" : "lower"; }
 
-Html RecordsTable(const std::vector<FrontierLine>& lines) {
-  Table table{"records",
-              "The worst problems that are known, each beside random problems",
-              {{"frontier", "", kText},
-               {"worst known"},
-               {"worse is", "", kText},
-               {"best of random problems"},
-               {"of so many"},
-               {"found by", "", kText}}};
+Table RecordsTable(const std::vector<FrontierLine>& lines) {
+  Table table = Described("records");
   for (const FrontierLine& line : lines) {
-    table.Add({Text(line.what) + Html(" ") + Tag("small")(line.status), ValueText(line.value), Worse(line),
-               line.random.empty() ? "nothing" : ValueText(line.random), line.evaluations,
-               Tag("code")(line.command)});
+    table.Add({{line.what, line.status},
+               ValueText(line.value),
+               Worse(line),
+               line.random.empty() ? "nothing" : ValueText(line.random),
+               line.evaluations,
+               {line.command, "", "code"}});
   }
-  return ToHtml(table);
+  return table;
 }
 
 // All records of an objective and number of contacts, by their names: "friction-gravity-4-contacts 1/54; ...".
@@ -54,36 +49,11 @@ std::string RecordsOf(const std::vector<FrontierLine>& lines, const OwnBest& bes
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-Html OwnTable(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
-  if (own.empty()) return {};
-  Table table{"own",
-              "The best of this search",
-              {{"sought", "", kText},
-               {"generator", "", kText},
-               {"contacts"},
-               {"mu"},
-               {"best here"},
-               {"records", "of this objective and number of contacts", kText}}};
+Table OwnTable(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
+  Table table = Described("own");
   for (const OwnBest& best : own)
     table.Add({best.objective, best.generator, best.contacts, best.mu, best.value, RecordsOf(lines, best)});
-  return Html("<p>What this search has found worst, of each generator and number of contacts:</p>\n") +
-         ToHtml(table);
-}
-
-Html Records(const std::vector<FrontierLine>& lines) {
-  if (lines.empty()) return {};
-  return Html(
-             "<p>How bad it can get, whatever campaign found it: the records that stand beside the program, "
-             "and are no part of a store. Each is an exact problem with its certificate; <code>stiction "
-             "records --check</code> computes every value anew. Exact values, and what drew the random "
-             "problems, stand in <a href=\"frontiers.csv\">frontiers.csv</a>.</p>\n") +
-         FigurePlace(
-             "frontiers",
-             "From the best of random problems, an open ring, to the worst that is known, a dot; a dot without "
-             "a ring: "
-             "random problems reached nothing. Of condition and friction lower is worse, of all else higher.",
-             "stiction records --json") +
-         RecordsTable(lines);
+  return table;
 }
 
 }  // namespace
@@ -108,9 +78,11 @@ Table FrontiersTable(const std::vector<FrontierLine>& lines) {
   return table;
 }
 
-Html FrontiersSection(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
-  if (lines.empty() && own.empty()) return {};
-  return Section("frontiers", "Frontiers", OwnTable(lines, own) + Records(lines));
+void AddFrontiers(Facts& facts, const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own) {
+  facts.numbers["records"] = std::ssize(lines);
+  facts.numbers["own"] = std::ssize(own);
+  facts.tables["records"] = [&lines] { return std::vector<Table>{RecordsTable(lines)}; };
+  facts.tables["own"] = [&lines, &own] { return std::vector<Table>{OwnTable(lines, own)}; };
 }
 
 }  // namespace stiction

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worst problems that are known, beside what random problems reached: a section of the page, and
+// The worst problems that are known, beside what random problems reached: what the page says of them, and
 // frontiers.csv.
 
 #ifndef STICTION_REPORTS_PAGE_FRONTIERS_H_
@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/html/html.h"
-#include "reports/page/figures.h"
+#include "reports/told/told.h"
 
 namespace stiction {
 
@@ -38,10 +37,10 @@ struct OwnSearch {
 
 // frontiers.csv: what is exact, and what drew the random problems.
 Table FrontiersTable(const std::vector<FrontierLine>& lines);
-// Each record, and what random problems reached, null if nothing, as numbers (figures.h).
+// Each record, and what random problems reached, null if nothing, as numbers.
 Table FrontiersFigure(const std::vector<FrontierLine>& lines);
-// Empty without lines and bests.
-Html FrontiersSection(const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own = {});
+// Tables `records`, and `own` beside them.
+void AddFrontiers(Facts& facts, const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own);
 
 }  // namespace stiction
 

@@ -21,42 +21,16 @@ namespace {
 
 const By kBySize = {"policy", "contacts"};
 
-Table PaperLoops(const Record& record) {
-  Table table =
-      Select(FailuresTable(record, {"generator", "contacts", "policy", "arithmetic"}),
-             "generator policy arithmetic contacts runs #loops loops=in_a_million_[95_%]",
-             "Loops of the published algorithm, confirmed in exact arithmetic, in a million runs, with exact "
-             "intervals at 95 % (Garwood). They are lower bounds where runs were not all repeated exactly.");
-  table.name = "loops";
-  return table;
-}
-
-Table PaperContacts(const Record& record) {
-  return Select(
-      ContactsTable(record, kBySize),
-      "policy contacts runs steps with_zero_steps with_give_ups=with_give-ups loops",
-      "Runs by number of contacts, all generators together: steps in the mean; runs with a step of length "
-      "zero, and with something given up, as shares with exact intervals at 95 % (Clopper and Pearson); "
-      "loops confirmed exactly, in a million runs (Garwood).");
-}
-
-Table PaperMethods(const Record& record) {
-  Table table =
-      Select(AgreementTable(record),
-             "contacts problems=given solved #with_folds #with_descents compared enumerated=all_modes "
-             "disagreements",
-             "Complete driving on the problems that were given to it, and methods held against each other "
-             "(published algorithm, complete driving, Lemke's method; all contact modes tried of some), by "
-             "number of contacts. Each solution was verified exactly.");
-  table.name = "methods";
+// A table by another name.
+Table Named(const char* name, Table table) {
+  table.name = name;
   return table;
 }
 
 // Rates of the loops of the published algorithm by contacts, for each generator that has any.
 std::map<std::string, Table> LoopCurves(const Record& record) {
-  Table table = Select(FailuresTable(record, {"policy", "generator", "contacts"}),
-                       "policy generator contacts runs loops", "");
-  table.columns.back().name = "loops,,rate,low,high";
+  const By by = {"policy", "generator", "contacts"};
+  Table table = CountedBy("often", by, GroupsBy(record, by));
   const auto loops = [](const Table::Row& row) { return std::get<Ratio>(row.cells.back().value); };
   std::erase_if(table.rows,
                 [&](const auto& row) { return Shown(row.cells[0]) != "paper" || loops(row).of == 0; });
@@ -83,9 +57,13 @@ Table StepShares(const std::vector<Group>& sizes) {
 
 std::map<std::string, std::string> LatexFiles(const Store& store) {
   const Record record = store.Total();
-  std::map<std::string, std::string> files = {{"latex/loops.tex", ToLatex(PaperLoops(record))},
-                                              {"latex/contacts.tex", ToLatex(PaperContacts(record))},
-                                              {"latex/methods.tex", ToLatex(PaperMethods(record))}};
+  const By by = {"generator", "policy", "arithmetic", "contacts"};
+  std::map<std::string, std::string> files;
+  for (const Table& table :
+       {Named("loops", CountedBy("loops-in-papers", by, GroupsBy(record, by))),
+        Named("contacts", CountedBy("contacts-in-papers", kBySize, GroupsBy(record, kBySize))),
+        Named("methods", CountedByContacts("methods-in-papers", record))})
+    files["latex/" + table.name + ".tex"] = ToLatex(table);
   std::vector<std::string> remarks, series, legend, contacts;
   const Json told = RemarksOf(store.identity());
   for (const auto& [name, value] : told.items())

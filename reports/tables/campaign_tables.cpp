@@ -36,64 +36,62 @@ std::vector<Group> GroupsAndAll(const Record& record, const By& by) {
   return groups;
 }
 
-// The colour of so many in a million: one class per factor of ten.
-std::string Heat(std::int64_t count, std::int64_t of) {
-  if (count == 0 || of == 0) return "";
-  const double rate = 1e6 * static_cast<double>(count) / static_cast<double>(of);
-  int level = 1;
-  for (double limit = 10; level < 5 && rate >= limit; limit *= 10) ++level;
-  return fmt::format("h{}", level);
+// With runs alone.
+std::vector<Group> RunsBy(const Record& record, const By& by) {
+  std::vector<Group> groups = GroupsBy(record, by);
+  std::erase_if(groups, [](const Group& group) { return group.counts.runs == 0; });
+  return groups;
 }
-
-// Without a rate where there are none.
-TableCell RateIfAny(std::int64_t count, std::int64_t of, bool heat = true) {
-  if (count == 0) return 0;
-  return {RateOf(count, of), "", heat ? Heat(count, of) : ""};
-}
-
-// What must be zero.
-TableCell Exception(std::int64_t count) { return {count, "", count == 0 ? "" : "h5"}; }
 
 }  // namespace
 
-// ---- Data alone ----
-
-Table StatisticsTable(const Record& record) {
-  Table table = Keyed("statistics", "", kByAll,
-                      Columns("problems @ audited misjudged wrong with_zero_steps with_give_ups sum_# max_#"));
-  for (const Group& g : GroupsBy(record, kByAll)) {
-    const Tally& t = g.tally;
-    std::vector<TableCell> cells = {t.problems};
-    AddAll(cells, t.outcomes);
-    cells.insert(cells.end(), {t.audited, t.misjudged, t.wrong, t.with_zero_steps, t.with_give_ups});
-    AddAll(cells, t.sums);
-    AddAll(cells, t.maxima);
-    table.Add(Behind(g, cells));
+Table CountedByContacts(const std::string& name, const Record& record) {
+  Table table = Described(name);
+  for (const auto& [contacts, existence] : record.existence) {
+    const auto found = record.agreement.find(contacts);
+    table.AddCounted({contacts},
+                     NumbersOf(existence, found == record.agreement.end() ? AgreementTally{} : found->second));
   }
+  table.AddCounted({"all"}, NumbersOf(SumOf(record.existence), SumOf(record.agreement)));
+  table.TotalIsLast();
   return table;
 }
 
-Table StrataTable(const Record& record) {
-  Table table = Keyed("strata", "", kByAll,
-                      Columns("friction* rank problems steps zero_steps audited misjudged @ exact_@"));
-  for (const Group& g : GroupsBy(record, kByAll)) {
-    for (const auto& [key, s] : g.tally.strata) {
-      std::vector<TableCell> cells = {key.friction, key.rank,  s.problems, s.steps,
-                                      s.zero_steps, s.audited, s.misjudged};
-      AddAll(cells, s.outcomes);
-      AddAll(cells, s.exact);
-      table.Add(Behind(g, cells));
+Table MethodsTable(const Record& record, const std::vector<Discovery>& discoveries) {
+  static constexpr const char* kFinished = "finished findings";
+  struct Asked {
+    const char *method, *about;
+    std::map<int, Ratio> solved = {};  // by contacts
+
+    void Add(int contacts, std::int64_t asked, std::int64_t good) {
+      solved[contacts].count += good;
+      solved[contacts].of += asked;
+    }
+  };
+  Asked doubles{"published, in doubles", "every run"}, exact{"published, exact", "runs repeated on suspicion"},
+      complete{"complete driving", "problems given to it"}, lemke{"Lemke’s method", "problems compared"},
+      again{"published, exact", kFinished}, ipopt{"Ipopt", kFinished},
+      certified{"certified to have a solution", kFinished};
+  for (const Group& g : GroupsBy(record, {"contacts"})) {
+    doubles.Add(g.Number(0), g.tally.problems, g.tally.outcomes[kSolvedOutcome] - g.tally.wrong);
+    exact.Add(g.Number(0), g.counts.suspicious, g.counts.Of(Outcome::kSolved));
+  }
+  for (const auto& [contacts, tally] : record.existence) complete.Add(contacts, tally.problems, tally.solved);
+  for (const auto& [contacts, tally] : record.agreement)
+    lemke.Add(contacts, tally.compared, tally.compared - tally.disagreements);
+  for (const Discovery& discovery : discoveries) {
+    if (!discovery.Finished() || !discovery.ipopt || discovery.ipopt->outcome == "unavailable") continue;
+    const Finding& finding = *discovery.representative;
+    again.Add(finding.contacts, 1, finding.exact_outcome == Name(Outcome::kSolved));
+    ipopt.Add(finding.contacts, 1, discovery.ipopt->outcome == "solved");
+    certified.Add(finding.contacts, 1, finding.existence.find("solution-exists") != std::string::npos);
+  }
+  Table table = Described("methods");
+  for (const Asked* row : {&doubles, &exact, &complete, &lemke, &again, &ipopt, &certified}) {
+    for (const auto& [contacts, solved] : row->solved) {
+      if (solved.of > 0) table.Add({row->method, row->about, contacts, solved.of, solved});
     }
   }
-  return table;
-}
-
-Table WorkTable(const Work& work) {
-  Table table{"work", "", Columns("what* meaning* value*")};
-  for (const std::string& machine : work.machines) table.Add({"machine", "", machine});
-  ForEachPart(work.time, [&table](const char* name, const char* meaning, std::int64_t value) {
-    table.Add({name, meaning, fmt::format("{:.6f}", static_cast<double>(value) * 1e-6)});
-  });
   return table;
 }
 
@@ -144,6 +142,39 @@ Table FindingsTable(const std::vector<Discovery>& discoveries) {
   return table;
 }
 
+Table WorkTable(const Work& work) {
+  Table table{"work", "", Columns("what* meaning* value*")};
+  for (const std::string& machine : work.machines) table.Add({"machine", "", machine});
+  ForEachPart(work.time, [&table](const char* name, const char* meaning, std::int64_t value) {
+    table.Add({name, meaning, fmt::format("{:.6f}", static_cast<double>(value) * 1e-6)});
+  });
+  return table;
+}
+
+namespace {
+
+// All counters, sums and maxima of every tally.
+Table StatisticsTable(const Record& record) {
+  return CountedBy("statistics", kByAll, GroupsBy(record, kByAll));
+}
+
+// Outcomes of doubles and of exact runs apart, by friction and rank.
+Table StrataTable(const Record& record) {
+  Table table = Keyed("strata", "", kByAll,
+                      Columns("friction* rank problems steps zero_steps audited misjudged @ exact_@"));
+  for (const Group& g : GroupsBy(record, kByAll)) {
+    for (const auto& [key, s] : g.tally.strata) {
+      std::vector<TableCell> cells = {key.friction, key.rank,  s.problems, s.steps,
+                                      s.zero_steps, s.audited, s.misjudged};
+      AddAll(cells, s.outcomes);
+      AddAll(cells, s.exact);
+      table.Add(Behind(g, cells));
+    }
+  }
+  return table;
+}
+
+// A row per finding that Ipopt was asked about. Apart, since its answers depend on the machine's libraries.
 Table IpoptTable(const std::vector<Discovery>& discoveries) {
   Table table{"ipopt", "", Columns("signature* kind* outcome* starts")};
   for (const Discovery& d : discoveries) {
@@ -152,8 +183,7 @@ Table IpoptTable(const std::vector<Discovery>& discoveries) {
   return table;
 }
 
-// ---- Data and figures ----
-
+// Runs repeated exactly on suspicion: by what doubles said and what is exact, as far as it occurred.
 Table VerdictsTable(const Record& record, const std::string& name, const By& by, const std::string& columns) {
   Table table = Keyed(name, "", by, Columns(columns));
   for (const Group& g : GroupsBy(record, by)) {
@@ -167,6 +197,7 @@ Table VerdictsTable(const Record& record, const std::string& name, const By& by,
   return table;
 }
 
+// Runs by their steps; the last bin, which holds all above, too, is marked.
 Table StepsTable(const Record& record, const std::string& name, const By& by, const std::string& runs) {
   Table table = Keyed(name, "", by, Columns("steps or_more* " + runs));
   for (const Group& g : GroupsBy(record, by)) {
@@ -178,6 +209,7 @@ Table StepsTable(const Record& record, const std::string& name, const By& by, co
   return table;
 }
 
+// Loops by how many zero steps their period has.
 Table ZeroStepsTable(const Record& record, const std::string& name) {
   Table table{name, "", Columns("contacts zero_steps loops")};
   for (const auto& [contacts, tally] : record.loops) {
@@ -186,139 +218,64 @@ Table ZeroStepsTable(const Record& record, const std::string& name) {
   return table;
 }
 
+// Failures confirmed exactly, by contacts, friction (mu) and rank.
 Table RatesFigure(const Record& record) {
   Table table{"rates", "",
               Columns("by* generator* policy* contacts value* outcome* runs count,,rate,low,high")};
   for (const char* by : {"contacts", "friction", "rank"}) {
-    for (const Group& g : GroupsBy(record, {"generator", "policy", "contacts", by})) {
+    for (const Group& g : RunsBy(record, {"generator", "policy", "contacts", by})) {
       const Counts& c = g.counts;
       const std::string value = std::visit([](const auto& part) { return fmt::format("{}", part); }, g.key[3]);
       for (const auto& [outcome, count] : {std::pair("loop", c.Loops()),
                                            {"singular", c.Of(Outcome::kSingular)},
                                            {"ray", c.Of(Outcome::kRay)}}) {
-        if (c.runs > 0)
-          table.Add({by, g.Text(0), g.Text(1), g.Number(2), value, outcome, c.runs, RateOf(count, c.runs)});
+        table.Add({by, g.Text(0), g.Text(1), g.Number(2), value, outcome, c.runs, RateOf(count, c.runs)});
       }
     }
   }
   return table;
 }
 
+// Loops confirmed exactly of all generators together, by contacts and friction.
 Table OftenFigure(const Record& record) {
-  Table table = Keyed("often", "", {"policy", "contacts", "friction"}, Columns("runs loops,,rate,low,high"));
-  for (const Group& g : GroupsBy(record, {"policy", "contacts", "friction"})) {
-    if (g.counts.runs > 0) table.Add(Behind(g, {g.counts.runs, RateOf(g.counts.Loops(), g.counts.runs)}));
-  }
-  return table;
+  const By by = {"policy", "contacts", "friction"};
+  return CountedBy("often", by, RunsBy(record, by));
 }
 
+// Steps of a run, at most so many in half of the runs, in 99 of 100, in all; and shares of runs.
 Table CostFigure(const Record& record) {
-  Table table = Keyed("cost", "", {"policy", "contacts"},
-                      Columns("runs median of_99_percent most zero_steps,,zero_share,zero_low,zero_high "
-                              "give_ups,,give_up_share,give_up_low,give_up_high"));
-  for (const Group& g : GroupsBy(record, {"policy", "contacts"})) {
-    const Counts& c = g.counts;
-    if (c.runs == 0) continue;
-    const auto within = [&g](double share) {
-      std::int64_t below = 0;
-      int steps = 0;
-      const auto wanted = share * static_cast<double>(g.tally.problems);
-      while (steps < Tally::kBins - 1 && static_cast<double>(below += g.tally.steps[steps]) < wanted) ++steps;
-      return steps;
-    };
-    table.Add(Behind(g, {c.runs, within(0.5), within(0.99), g.tally.maxima.steps,
-                         ShareOf(c.with_zero_steps, c.runs), ShareOf(c.with_give_ups, c.runs)}));
-  }
-  return table;
+  return CountedBy("cost", {"policy", "contacts"}, RunsBy(record, {"policy", "contacts"}));
 }
 
+// Audited runs that were misjudged, and solutions that are none, by generator.
 Table TrustFigure(const Record& record) {
-  Table table = Keyed("trust", "", {"generator"}, {{"audited runs, misjudged"}, {"runs with a wrong answer"}});
-  for (const Group& g : GroupsBy(record, {"generator"})) {
-    const Counts& c = g.counts;
-    table.Add(Behind(g, {ShareOf(c.misjudged, c.audited), ShareOf(c.wrong, c.runs)}));
-  }
+  Table table = CountedBy("trusted", {"generator"}, GroupsBy(record, {"generator"}));
+  table.name = "trust";
   return Melted(table, kShareParts);
 }
 
+// Runs with a step of length zero, and with something given up.
 Table PivotingFigure(const Record& record) {
-  Table table = Select(ContactsTable(record, {"generator", "policy", "contacts"}),
-                       "generator policy contacts with_zero_steps=a_step_of_length_zero "
-                       "with_give_ups=a_variable_given_up",
-                       "");
-  table.name = "pivoting";
-  return Melted(table, kShareParts);
+  const By by = {"generator", "policy", "contacts"};
+  return Melted(CountedBy("pivoting", by, GroupsBy(record, by)), kShareParts);
 }
 
+// Paths of complete driving with folds, with descents, with ties.
 Table DrivingFigure(const Record& record) {
-  Table table =
-      Select(AgreementTable(record), "contacts with_folds=folds with_descents=descents with_ties=ties", "");
+  Table table = CountedByContacts("paths", record);
   table.name = "driving";
   return Melted(table, kShareParts);
 }
 
-// ---- Data and people ----
-
+// Loops of exact arithmetic by the number of contacts in their period.
 Table LoopsTable(const Record& record) {
-  Table table{"loops",
-              "Loops in exact arithmetic, by number of contacts in the period",
-              {{"contacts"},
-               {"loops"},
-               {"drives", "of a period: mean"},
-               {"steps", "of a period: mean"},
-               {"zero_steps", "of a period: mean"},
-               {"without_zero_steps", "loops without a step of length zero in the period; below: their share"},
-               {"of_zero_steps_alone", "loops whose period has no other steps; below: their share"}}};
-  for (const auto& [contacts, t] : record.loops) {
-    table.Add({contacts, t.loops, MeanOf(t.drives, t.loops), MeanOf(t.steps, t.loops),
-               MeanOf(t.zero_steps, t.loops), ShareOf(t.without_zero_steps, t.loops),
-               ShareOf(t.of_zero_steps_alone, t.loops)});
-  }
+  Table table = Described("loops");
+  for (const auto& [contacts, tally] : record.loops) table.AddCounted({contacts}, NumbersOf(tally));
   return table;
 }
 
-Table AgreementTable(const Record& record) {
-  Table table{
-      "agreement",
-      "",
-      {{"contacts"},
-       {"problems", "that the published algorithm did not solve, audited, or drawn"},
-       {"solved", "complete driving returned a solution that stood exact verification"},
-       {"", "", false, "not solved"},
-       {"pieces", "of the path, mean"},
-       {"with_folds", "the path turns back: where the published algorithm gives up"},
-       {"with_descents", "a driven force returns to zero"},
-       {"with_ties", "decided by symbolic perturbation"},
-       {"compared", "published algorithm, complete driving and Lemke's method"},
-       {"enumerated", "of these, with every word of contact modes decided by exact linear programs", false,
-        "all modes tried"},
-       {"disagreements",
-        "a wrong solution, a method that ends otherwise than it must, a solution that another misses"},
-       {"continua", "a word of modes with more than one solution; below: of those with all modes tried"},
-       {"regular", "every solution stands inside one word, alone; below: of those with all modes tried"},
-       {"signs_not_one",
-        "regular, and the signs of the reduced determinants do not sum to 1; A singular, or a disagreement"},
-       {"safety_decided", "audited problems of at most three contacts"},
-       {"safe", "all reduced determinants are positive"},
-       {"safe_gave_up", "safe, and something was given up under apex=suspended", false, "gave up"},
-       {"safe_gave_up_no_ties", "of these, without any tie: a disagreement", false, "without ties"}}};
-  const auto add = [&table](const TableCell& contacts, const ExistenceTally& e, const AgreementTally& a) {
-    table.Add({contacts, e.problems, e.solved, Exception(e.problems - e.solved), MeanOf(e.pieces, e.problems),
-               ShareOf(e.with_folds, e.problems), ShareOf(e.with_descents, e.problems),
-               ShareOf(e.with_ties, e.problems), a.compared, a.enumerated, Exception(a.disagreements),
-               ShareOf(a.continua, a.enumerated), ShareOf(a.regular, a.enumerated), Exception(a.signs_not_one),
-               a.safety_decided, ShareOf(a.safe, a.safety_decided), a.safe_gave_up,
-               Exception(a.safe_gave_up_no_ties)});
-  };
-  for (const auto& [contacts, existence] : record.existence) {
-    const auto found = record.agreement.find(contacts);
-    add(contacts, existence, found == record.agreement.end() ? AgreementTally{} : found->second);
-  }
-  add("all", SumOf(record.existence), SumOf(record.agreement));
-  table.TotalIsLast();
-  return table;
-}
-
+// Problems by number of mode words that have solutions (`counted` = words), regular ones by number of
+// solutions.
 Table SolutionsTable(const Record& record) {
   Table table{"solutions", "", Columns("contacts counted* count problems"), {}, {}, 3};
   for (const auto& [contacts, tally] : record.agreement) {
@@ -330,105 +287,32 @@ Table SolutionsTable(const Record& record) {
   return table;
 }
 
-Table MethodsTable(const Record& record, const std::vector<Discovery>& discoveries) {
-  static constexpr const char* kFinished = "finished findings";
-  struct Asked {
-    const char *method, *about;
-    std::map<int, Ratio> solved = {};  // by contacts
-
-    void Add(int contacts, std::int64_t asked, std::int64_t good) {
-      solved[contacts].count += good;
-      solved[contacts].of += asked;
-    }
-  };
-  Asked doubles{"published, in doubles", "every run"}, exact{"published, exact", "runs repeated on suspicion"},
-      complete{"complete driving", "problems given to it"}, lemke{"Lemke’s method", "problems compared"},
-      again{"published, exact", kFinished}, ipopt{"Ipopt", kFinished},
-      certified{"certified to have a solution", kFinished};
-  for (const Group& g : GroupsBy(record, {"contacts"})) {
-    doubles.Add(g.Number(0), g.tally.problems, g.tally.outcomes[kSolvedOutcome] - g.tally.wrong);
-    exact.Add(g.Number(0), g.counts.suspicious, g.counts.Of(Outcome::kSolved));
-  }
-  for (const auto& [contacts, tally] : record.existence) complete.Add(contacts, tally.problems, tally.solved);
-  for (const auto& [contacts, tally] : record.agreement)
-    lemke.Add(contacts, tally.compared, tally.compared - tally.disagreements);
-  for (const Discovery& discovery : discoveries) {
-    if (!discovery.Finished() || !discovery.ipopt || discovery.ipopt->outcome == "unavailable") continue;
-    const Finding& finding = *discovery.representative;
-    again.Add(finding.contacts, 1, finding.exact_outcome == Name(Outcome::kSolved));
-    ipopt.Add(finding.contacts, 1, discovery.ipopt->outcome == "solved");
-    certified.Add(finding.contacts, 1, finding.existence.find("solution-exists") != std::string::npos);
-  }
-  Table table{"methods",
-              "What each method made of what it was asked",
-              Columns("method* asked_about* contacts asked solved,,share,low,high"),
-              {},
-              {},
-              3};
-  table.columns.back().hint = "below: the share, with its exact interval at 95 %";
-  for (const Asked* row : {&doubles, &exact, &complete, &lemke, &again, &ipopt, &certified}) {
-    for (const auto& [contacts, solved] : row->solved) {
-      if (solved.of > 0) table.Add({row->method, row->about, contacts, solved.of, solved});
-    }
-  }
-  return table;
-}
-
-// ---- People alone ----
-
-Table FailuresTable(const Record& record, const By& by) {
-  const std::string hint = "in exact arithmetic; below: in a million runs, with the interval";
-  Table table =
-      Keyed("failures",
-            "Failures confirmed exactly, with intervals, per generator, number of contacts and policy", by,
-            {{"runs"},
-             {"loops", "never end (cycle or stall) " + hint},
-             {"singular", hint},
-             {"ray", hint},
-             {"audited", "run again exactly without a suspicion, as a sample"},
-             {"misjudged", "audited with another exact outcome; below: their share, with the interval"}});
-  for (const Group& g : GroupsBy(record, by)) {
-    const Counts& c = g.counts;
-    table.Add(Behind(g, {c.runs, RateOf(c.Loops(), c.runs), RateOf(c.Of(Outcome::kSingular), c.runs),
-                         RateOf(c.Of(Outcome::kRay), c.runs), c.audited, ShareOf(c.misjudged, c.audited)}));
-  }
-  return table;
-}
-
+// How the runs in doubles ended.
 Table OutcomesTable(const Record& record) {
-  Table table = Keyed(
-      "outcomes", "Outcomes per generator, number of contacts and policy", {"generator", "contacts", "policy"},
-      {{"problems"},
-       {"solved", "forces that satisfy every condition"},
-       {"cycle", "the outer state recurs exactly, or in space the run never leaves a box: it never ends"},
-       {"stall", "within one drive the inner state recurs exactly: the drive never ends"},
-       {"ray", "nothing limits the step"},
-       {"singular", "the direction system has no solution"},
-       {"limit", "a budget of drives, pivots or bits is spent"},
-       {"undecided", "a sign could not be told"}});
-  for (Group& g : GroupsAndAll(record, kByAll)) {
+  std::vector<Group> groups = GroupsAndAll(record, kByAll);
+  for (Group& g : groups) {
     const TallyKey usual;
     // Method and arithmetic are named only where they are not the published algorithm in doubles.
     if (g.Text(2) != "" && (g.Text(3) != usual.method || g.Text(4) != usual.arithmetic))
       g.key[2] = fmt::format("{} ({}, {})", g.Text(2), g.Text(3), g.Text(4));
     g.key.resize(3);
-    std::vector<TableCell> cells = {g.tally.problems};
-    for (int i = 0; i < kOutcomeCount; ++i) {
-      const std::int64_t count = g.tally.outcomes[i];
-      cells.push_back(i == kSolvedOutcome ? TableCell(count) : RateIfAny(count, g.tally.problems));
-    }
-    table.Add(Behind(g, cells));
   }
+  Table table = CountedBy("outcomes", {"generator", "contacts", "policy"}, groups);
   table.TotalIsLast();
   return table;
 }
 
+// Rates of the runs that doubles do not solve: generators down, contacts across.
 Table UnsolvedTable(const Record& record) {
-  Table table =
-      Keyed("unsolved", "Runs not solved in doubles, per million", {"generator", "contacts"}, {{"unsolved"}});
-  for (const Group& g : GroupsBy(record, {"generator", "contacts"})) {
-    const std::int64_t runs = g.tally.problems, count = runs - g.tally.outcomes[kSolvedOutcome];
-    table.Add(Behind(g, {{RateText(count, runs), "", count == 0 ? "zero" : Heat(count, runs)}}));
+  const By by = {"generator", "contacts"};
+  const Table described = Described("unsolved");
+  Table table = Keyed("unsolved", described.caption, by, described.columns);
+  for (const Group& g : GroupsBy(record, by)) {
+    Numbers numbers = NumbersOf(g);
+    numbers["unsolved"] = numbers["problems"] - numbers["solved"];
+    const TableCell rate = CellOf("unsolved/problems^", numbers);
+    table.Add(Behind(g, {{RateText(numbers["unsolved"], numbers["problems"]), "",
+                          numbers["unsolved"] == 0 ? "zero" : rate.style}}));
   }
   table = Pivoted(table, "contacts", "unsolved", {"", "", "zero"});
   for (std::size_t i = 1; i < table.columns.size(); ++i)
@@ -436,13 +320,9 @@ Table UnsolvedTable(const Record& record) {
   return table;
 }
 
+// Suspicious runs of doubles and their exact outcomes.
 Table SuspicionsTable(const Record& record) {
-  Table table{"suspicions",
-              "Suspicious runs in doubles and their exact outcome",
-              {{"in doubles", "how the run ended in double arithmetic", kText},
-               {"runs", "all of these are repeated exactly"}}};
-  for (int i = 0; i < kOutcomeCount; ++i) table.columns.push_back({NameOf(i), "outcome of the exact run"});
-  table.columns.push_back({"confirmed", "the exact run ended in the same outcome"});
+  Table table = Described("suspicions");
   const Tally all = GroupsBy(record, {}).front().tally;
   for (int inexact = 0; inexact < kOutcomeCount; ++inexact) {
     const Outcomes& exact = all.verdicts[inexact];
@@ -453,35 +333,20 @@ Table SuspicionsTable(const Record& record) {
     std::vector<TableCell> cells = {same < 0 ? "solved, but wrong" : NameOf(inexact), runs};
     for (int i = 0; i < kOutcomeCount; ++i)
       cells.emplace_back(exact[i], "", i == same && exact[i] > 0 ? "same" : "");
-    cells.emplace_back(same < 0 ? "–" : Percent(exact[same], runs));
+    cells.push_back(same < 0 ? TableCell("–") : ShareOf(exact[same], runs));
     table.Add(std::move(cells));
   }
   return table;
 }
 
+// Suspicions, audits and wrong answers by generator.
 Table TrustTable(const Record& record) {
-  Table table =
-      Keyed("trust", "Suspicions, audits and wrong answers per generator", {"generator"},
-            {{"runs"},
-             {"suspicious", "not solved, or with a wrong answer; below: per million"},
-             {"refuted", "the exact run of a suspicious problem is solved; below: share of the suspicious"},
-             {"audited", "run again exactly without a suspicion, as a sample"},
-             {"misjudged", "audited with another exact outcome"},
-             {"wrong answers", "called solved with an error above the bound of the gate; below: per million"}});
-  for (const Group& g : GroupsAndAll(record, {"generator"})) {
-    const Counts& c = g.counts;
-    const std::int64_t refuted = c.Of(Outcome::kSolved);
-    table.Add(Behind(g, {c.runs,
-                         RateIfAny(c.suspicious, c.runs, false),
-                         {refuted, Percent(refuted, c.suspicious)},
-                         c.audited,
-                         c.misjudged,
-                         RateIfAny(c.wrong, c.runs)}));
-  }
+  Table table = CountedBy("trust", {"generator"}, GroupsAndAll(record, {"generator"}));
   table.TotalIsLast();
   return table;
 }
 
+// Counters of a run: mean and maximum.
 Table PivotsTable(const Record& record) {
   std::vector<Column> columns = {{"runs"}};
   const Statistics names;
@@ -503,15 +368,28 @@ Table PivotsTable(const Record& record) {
   return table;
 }
 
-Table ContactsTable(const Record& record, const By& by) {
-  Table table = Keyed("contacts", "", by, Columns("runs steps with_zero_steps with_give_ups loops"));
-  for (const Group& g : GroupsBy(record, by)) {
-    const Counts& c = g.counts;
-    table.Add(Behind(g, {c.runs, MeanOf(g.tally.sums.steps, c.runs), ShareOf(c.with_zero_steps, c.runs),
-                         ShareOf(c.with_give_ups, c.runs), RateOf(c.Loops(), c.runs)}));
-  }
+const By kByRun = {"generator", "contacts", "policy"};
+
+// Loops by what is known of a stratum, which stands across.
+Table StrataLoops(const Record& record, const std::string& across, const char* caption) {
+  By by = kByRun;
+  by.push_back(across);
+  Table table = Pivoted(CountedBy("failures", by, GroupsBy(record, by)), across, "loops", "–");
+  table.caption = caption;
   return table;
 }
+
+// Contacts down, counts across.
+std::vector<Table> Histogram(const Record& record, const std::string& counted, const char* caption) {
+  const auto parts = SplitBy(SolutionsTable(record), "counted");
+  const auto found = parts.find(counted);
+  if (found == parts.end()) return {};
+  Table table = Pivoted(found->second, "count", "problems", 0);
+  table.caption = caption;
+  return {table};
+}
+
+}  // namespace
 
 std::vector<Table> CampaignTables(const Record& record, const std::vector<Discovery>& discoveries) {
   return {StatisticsTable(record),
@@ -520,10 +398,54 @@ std::vector<Table> CampaignTables(const Record& record, const std::vector<Discov
           StepsTable(record, "steps", kByAll, "problems"),
           LoopsTable(record),
           ZeroStepsTable(record, "zero_steps"),
-          AgreementTable(record),
+          CountedByContacts("agreement", record),
           SolutionsTable(record),
           FindingsTable(discoveries),
           IpoptTable(discoveries)};
+}
+
+std::vector<Table> CampaignFigures(const Record& record, const std::vector<Discovery>& discoveries) {
+  return {OftenFigure(record),
+          CostFigure(record),
+          RatesFigure(record),
+          VerdictsTable(record, "doubles", {"policy"}, "in_doubles* exact* runs"),
+          TrustFigure(record),
+          StepsTable(record, "steps", {"policy", "contacts"}, "runs"),
+          ZeroStepsTable(record, "loop-steps"),
+          PivotingFigure(record),
+          DrivingFigure(record),
+          MethodsTable(record, discoveries)};
+}
+
+std::map<std::string, TablesMaker> ShownTables(const Record& record) {
+  std::map<std::string, TablesMaker> tables;
+  const auto add = [&](const std::string& name, auto make) {
+    tables[name] = [&record, make] { return std::vector<Table>{make(record)}; };
+  };
+  add("failures_by_run", [](const Record& r) { return CountedBy("failures", kByRun, GroupsBy(r, kByRun)); });
+  add("failures_by_generator", [](const Record& r) {
+    Table table = CountedBy("failures", {"generator"}, GroupsBy(r, {"generator"}));
+    table.caption = "Failures confirmed exactly, by generator";
+    return table;
+  });
+  add("loops_by_friction",
+      [](const Record& r) { return StrataLoops(r, "friction", "Loops by friction coefficient"); });
+  add("loops_by_rank", [](const Record& r) { return StrataLoops(r, "rank", "Loops by rank"); });
+  add("unsolved", UnsolvedTable);
+  add("outcomes", OutcomesTable);
+  add("suspicions", SuspicionsTable);
+  add("trust", TrustTable);
+  add("pivots", PivotsTable);
+  add("loops", LoopsTable);
+  add("driving", [](const Record& r) { return CountedByContacts("driving", r); });
+  add("agreement", [](const Record& r) { return CountedByContacts("compared-methods", r); });
+  tables["solutions"] = [&record] {
+    return Histogram(record, "solutions", "Regular problems by number of solutions");
+  };
+  tables["words"] = [&record] {
+    return Histogram(record, "words", "Problems by number of mode words with solutions");
+  };
+  return tables;
 }
 
 }  // namespace stiction

@@ -57,6 +57,69 @@ std::vector<Group> GroupsBy(const Record& record, const By& by) {
   return sorted;
 }
 
+namespace {
+
+// The least number of steps that a share of the runs do not exceed.
+int StepsWithin(const Tally& tally, double share) {
+  std::int64_t below = 0;
+  int steps = 0;
+  const auto wanted = share * static_cast<double>(tally.problems);
+  while (steps < Tally::kBins - 1 && static_cast<double>(below += tally.steps[steps]) < wanted) ++steps;
+  return steps;
+}
+
+}  // namespace
+
+Numbers NumbersOf(const Group& group) {
+  const Counts& c = group.counts;
+  Numbers numbers = {{"problems", group.tally.problems},
+                     {"runs", c.runs},
+                     {"loops", c.Loops()},
+                     {"suspicious", c.suspicious},
+                     {"unsuspected", c.runs - c.suspicious},
+                     {"confirmed", c.confirmed},
+                     {"doubles_differ", c.doubles_differ},
+                     {"wrong", c.wrong},
+                     {"audited", c.audited},
+                     {"misjudged", c.misjudged},
+                     {"with_zero_steps", c.with_zero_steps},
+                     {"with_give_ups", c.with_give_ups},
+                     {"median_steps", StepsWithin(group.tally, 0.5)},
+                     {"steps_of_99_percent", StepsWithin(group.tally, 0.99)}};
+  for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+    const std::string name(kOutcomeNames[i]);
+    numbers[name] = group.tally.outcomes[i];
+    numbers["exact_" + name] = c.exact[i];
+  }
+  for (const auto& [of, statistics] : {std::pair("sum_", &group.tally.sums), {"max_", &group.tally.maxima}})
+    ForEachField(*statistics, [&, of = std::string(of)](const char* name, const char*, std::int64_t value) {
+      numbers[of + name] = value;
+    });
+  return numbers;
+}
+
+Numbers NumbersOf(const ExistenceTally& existence, const AgreementTally& agreement) {
+  Numbers numbers;
+  ForEachCounter(existence,
+                 [&](const char* name, std::int64_t value) { numbers[std::string("driven_") + name] = value; });
+  ForEachCounter(agreement, [&](const char* name, std::int64_t value) { numbers[name] = value; });
+  return numbers;
+}
+
+Numbers NumbersOf(const LoopTally& loops) {
+  Numbers numbers;
+  ForEachCounter(loops,
+                 [&](const char* name, std::int64_t value) { numbers[std::string("period_") + name] = value; });
+  return numbers;
+}
+
+Table CountedBy(const std::string& name, const By& by, const std::vector<Group>& groups) {
+  const Table described = Described(name);
+  Table table = Keyed(name, described.caption, by, described.columns);
+  for (const Group& group : groups) table.AddCounted(Behind(group, {}), NumbersOf(group));
+  return table;
+}
+
 Table Keyed(const std::string& name, const std::string& caption, const By& by,
             const std::vector<Column>& columns) {
   Table table{name, caption, {}, {}, {}, static_cast<int>(by.size())};

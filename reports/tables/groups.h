@@ -34,6 +34,15 @@ inline const By kByAll = {"generator", "contacts", "policy", "method", "arithmet
 // all.
 std::vector<Group> GroupsBy(const Record& record, const By& by);
 
+// What was counted, by name: of runs `runs`, `loops`, `exact_ray`, ..., outcomes in doubles, `sum_steps`,
+// `max_steps`; of paths of complete driving `driven_problems`, ...; of methods compared `compared`, ...; of
+// loops `period_loops`, ...
+Numbers NumbersOf(const Group& group);
+Numbers NumbersOf(const ExistenceTally& existence, const AgreementTally& agreement);
+Numbers NumbersOf(const LoopTally& loops);
+
+// A table of tables.txt with a row for each group.
+Table CountedBy(const std::string& name, const By& by, const std::vector<Group>& groups);
 // A table whose rows are named by such keys.
 Table Keyed(const std::string& name, const std::string& caption, const By& by,
             const std::vector<Column>& columns);

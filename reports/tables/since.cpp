@@ -5,7 +5,6 @@
 
 #include <set>
 
-#include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
 
@@ -59,23 +58,6 @@ Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries) 
     table.Add({signature, "gone", line.met, 0, line.state, ""});
   }
   return table;
-}
-
-Html SinceText(const Since& since, const std::vector<Discovery>& discoveries) {
-  std::map<std::string, std::int64_t> changes;
-  for (const Table::Row& row : SinceTable(since, discoveries).rows) ++changes[Shown(row.cells[1])];
-  std::string text = fmt::format(
-      "Since the earlier report: {} new, {} finished that were not, and {} met more often, of {}; it "
-      "had {}.",
-      Grouped(changes["new"]), Grouped(changes["finished"]), Grouped(changes["more"]),
-      Counted(static_cast<std::int64_t>(discoveries.size()), "group"),
-      Grouped(static_cast<std::int64_t>(since.earlier.size())));
-  if (changes["gone"] > 0)
-    text += fmt::format(" {} of those are not here: the earlier report is of another store.",
-                        Grouped(changes["gone"]));
-  return Tag("p", {{"class", "since"}})(Text(text) +
-                                        Html(" Each is in <a href=\"since.csv\"><code>since.csv</code></a>.")) +
-         Html("\n");
 }
 
 }  // namespace stiction

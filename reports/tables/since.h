@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/html/html.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/table.h"
 
@@ -37,7 +36,6 @@ std::string_view StateOf(const Discovery& discovery);
 
 // A row for each signature that changed, or is gone: before and now.
 Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries);
-Html SinceText(const Since& since, const std::vector<Discovery>& discoveries);
 
 }  // namespace stiction
 

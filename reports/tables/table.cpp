@@ -14,6 +14,7 @@
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/rational.h"
+#include "reports/tables/tables_txt.h"
 #include "solver/problem/check.h"
 #include "solver/problem/solution.h"
 
@@ -23,12 +24,6 @@ namespace {
 template <class Value>
 const Value* As(const TableCell& cell) {
   return std::get_if<Value>(&cell.value);
-}
-
-std::vector<std::string> Split(const std::string& names, char at = ',') {
-  std::vector<std::string> parts(1);
-  for (const char c : names) c == at ? void(parts.emplace_back()) : parts.back().push_back(c);
-  return parts;
 }
 
 std::string Spaced(std::string name) {
@@ -71,7 +66,7 @@ std::array<TableCell, 5> PartsOf(const Ratio& ratio) {
 std::vector<TableCell> DataOf(const Column& column, const TableCell& cell) {
   const auto* const ratio = As<Ratio>(cell);
   if (ratio == nullptr) return column.name.empty() ? std::vector<TableCell>() : std::vector<TableCell>{cell};
-  const std::vector<std::string> names = Split(column.name);
+  const std::vector<std::string> names = Split(column.name, ",");
   const std::array<TableCell, 5> parts = PartsOf(*ratio);
   std::vector<TableCell> data;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -83,7 +78,7 @@ std::vector<TableCell> DataOf(const Column& column, const TableCell& cell) {
 std::vector<std::string> DataNames(const Table& table) {
   std::vector<std::string> names;
   for (const Column& column : table.columns) {
-    for (const std::string& name : Split(column.name)) {
+    for (const std::string& name : Split(column.name, ",")) {
       if (!name.empty()) names.push_back(name);
     }
   }
@@ -120,7 +115,6 @@ bool IsZero(const TableCell& cell) {
 }
 
 Html PageContent(const TableCell& cell) {
-  if (const auto* html = As<Html>(cell)) return *html;
   const auto* const ratio = As<Ratio>(cell);
   const bool counted = ratio != nullptr && ratio->kind != Ratio::kMean;
   Html content = Text(counted ? Grouped(ratio->count) : Shown(cell));
@@ -142,7 +136,100 @@ Html PageRow(const Table& table, const std::vector<TableCell>& cells, const std:
   return Tag("tr", {{"class", style}})(row) + Html("\n");
 }
 
+// The colour of so many in a million: one class per factor of ten.
+std::string Heat(const Ratio& ratio) {
+  const double rate = 1e6 * static_cast<double>(ratio.count) / static_cast<double>(ratio.of);
+  int level = 1;
+  for (double limit = 10; level < 5 && rate >= limit; limit *= 10) ++level;
+  return fmt::format("h{}", level);
+}
+
+// ---- Descriptions ----
+
+void AddDescribed(Table& table, const std::vector<std::string>& line) {
+  const std::size_t equals = std::min(line[0].find(" = "), line[0].size());
+  for (Column& column : Columns(line[0].substr(0, equals))) {
+    column.from = equals < line[0].size() ? line[0].substr(equals + 3) : column.name;
+    if (column.name == "-") column.name.clear();
+    if (line.size() > 1 && line[1] != "-") column.hint = line[1];
+    if (line.size() > 2) column.head = line[2];
+    table.columns.push_back(std::move(column));
+  }
+}
+
+std::map<std::string, Table> ReadDescriptions() {
+  std::map<std::string, Table> tables;
+  Table* last = nullptr;
+  for (const std::string& line : LinesOf({std::begin(kTablesTxt), std::end(kTablesTxt)})) {
+    const std::vector<std::string> parts = Split(line, " | ");
+    if (!line.starts_with("# ")) {
+      AddDescribed(*last, parts);
+      continue;
+    }
+    const std::vector<std::string> names = Split(parts[0].substr(2), " ");
+    last = &tables[names[0]];
+    last->name = names[0];
+    last->caption = parts.size() > 1 ? parts[1] : "";
+    if (names.size() > 1) last->keys = std::stoi(names[1]);
+  }
+  return tables;
+}
+
 }  // namespace
+
+std::vector<std::string> Split(std::string text, const std::string& at) {
+  std::vector<std::string> parts;
+  for (std::size_t found = text.find(at); found != text.npos; found = text.find(at)) {
+    parts.push_back(text.substr(0, found));
+    text.erase(0, found + at.size());
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  for (const std::string& line : Split(text, "\n")) {
+    if (line.starts_with("  ")) {
+      const bool closes = std::string_view(",;.:").find(line[2]) != std::string_view::npos;
+      lines.back() += line.substr(closes ? 2 : 1);
+    } else if (!line.empty() && !line.starts_with("@ ") && line != "@") {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+Table Described(const std::string& name) {
+  static const std::map<std::string, Table> tables = ReadDescriptions();
+  STICTION_CHECK(tables.contains(name), "expected a table of tables.txt, found " + name);
+  return tables.at(name);
+}
+
+TableCell CellOf(const std::string& expression, const Numbers& numbers) {
+  const bool exception = expression.back() == '!', coloured = expression.back() == '^';
+  const std::string plain = expression.substr(0, expression.size() - (exception || coloured));
+  const std::size_t at = std::min(plain.find_first_of("-/%~"), plain.size());
+  const auto number = [&numbers](const std::string& name) {
+    const auto found = numbers.find(name);
+    STICTION_CHECK(found != numbers.end(), "expected a number " + name);
+    return found->second;
+  };
+  const std::int64_t left = number(plain.substr(0, at)),
+                     right = at < plain.size() ? number(plain.substr(at + 1)) : 0;
+  const char sign = at < plain.size() ? plain[at] : ' ';
+  if (sign == ' ' || sign == '-') return {left - right, "", exception && left != right ? "h5" : ""};
+  const Ratio ratio = sign == '/'   ? RateOf(left, right)
+                      : sign == '%' ? ShareOf(left, right)
+                                    : MeanOf(left, right);
+  if (coloured && left == 0) return 0;
+  return {ratio, "", coloured ? Heat(ratio) : ""};
+}
+
+void Table::AddCounted(std::vector<TableCell> keys, const Numbers& numbers) {
+  for (std::size_t i = keys.size(); i < columns.size(); ++i) keys.push_back(CellOf(columns[i].from, numbers));
+  Add(std::move(keys));
+}
 
 void Table::Add(std::vector<TableCell> cells, Html across) {
   STICTION_CHECK(cells.size() == columns.size(),
@@ -164,7 +251,7 @@ void Table::TotalIsLast() {
 
 std::vector<Column> Columns(const std::string& names) {
   std::vector<Column> columns;
-  for (std::string name : Split(names, ' ')) {
+  for (std::string name : Split(names, " ")) {
     const char last = name.back();
     if (last == '*' || last == '@' || last == '#') name.pop_back();
     const Statistics none;
@@ -191,25 +278,6 @@ bool NaturalLess(const std::string& left, const std::string& right) {
   return left < right;
 }
 
-Table Select(const Table& table, const std::string& columns, const std::string& caption) {
-  Table selected{table.name, caption, {}, std::vector<Table::Row>(table.rows.size()), {}, 0};
-  for (const std::string& chosen : Split(columns, ' ')) {
-    const std::size_t equals = std::min(chosen.find('='), chosen.size());
-    const bool counts = chosen[0] == '#';
-    const std::size_t at = IndexOf(table, chosen.substr(counts, equals - counts));
-    selected.columns.push_back(table.columns[at]);
-    if (equals < chosen.size()) selected.columns.back().head = Spaced(chosen.substr(equals + 1));
-    const auto cell_of = [&](const std::vector<TableCell>& cells) {
-      return counts ? TableCell(As<Ratio>(cells[at])->count) : cells[at];
-    };
-    for (std::size_t i = 0; i < table.rows.size(); ++i)
-      selected.rows[i].cells.push_back(cell_of(table.rows[i].cells));
-    if (!table.total.empty()) selected.total.push_back(cell_of(table.total));
-    selected.keys += static_cast<int>(at) < table.keys;
-  }
-  return selected;
-}
-
 std::map<std::string, Table> SplitBy(const Table& table, const std::string& column) {
   const auto at = static_cast<std::ptrdiff_t>(IndexOf(table, column));
   Table empty = table;
@@ -221,6 +289,15 @@ std::map<std::string, Table> SplitBy(const Table& table, const std::string& colu
     const std::string value = Shown(row.cells[static_cast<std::size_t>(at)]);
     row.cells.erase(row.cells.begin() + at);
     parts.try_emplace(value, empty).first->second.rows.push_back(std::move(row));
+  }
+  return parts;
+}
+
+std::vector<Table> SplitByPolicy(const Table& table, const char* caption) {
+  std::vector<Table> parts;
+  for (auto& [policy, part] : SplitBy(table, "policy")) {
+    parts.push_back(part);
+    parts.back().caption = fmt::format(fmt::runtime(caption), policy);
   }
   return parts;
 }
@@ -323,13 +400,6 @@ std::string ToText(const Table& table) {
     text.AddRow(std::move(cells));
   }
   return text.Done();
-}
-
-std::string TextByPolicy(const Table& table, const char* title) {
-  std::string text;
-  for (const auto& [policy, part] : SplitBy(table, "policy"))
-    text += Paragraph(fmt::format(fmt::runtime(title), policy)) + ToText(part);
-  return text;
 }
 
 Html ToHtml(const Table& table) {

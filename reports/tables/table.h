@@ -39,7 +39,7 @@ inline Ratio ShareOf(std::int64_t count, std::int64_t of) { return {count, of, R
 inline Ratio MeanOf(std::int64_t sum, std::int64_t count) { return {sum, count, Ratio::kMean}; }
 
 struct TableCell {
-  std::variant<std::monostate, std::string, std::int64_t, double, Ratio, Html> value;
+  std::variant<std::monostate, std::string, std::int64_t, double, Ratio> value;
   std::string below = {}, style = {};  // on a page: what stands small below it; classes
 
   TableCell() = default;
@@ -69,7 +69,10 @@ struct Column {
   std::string hint = {};  // on a page, where one points at it
   bool text = false;      // to the left; numbers stand to the right
   std::string head = {};  // for people; empty: the first name, with blanks
+  std::string from = {};  // of which numbers (CellOf)
 };
+
+using Numbers = std::map<std::string, std::int64_t>;  // by the names of groups.h
 
 struct Table {
   struct Row {
@@ -87,12 +90,22 @@ struct Table {
 
   // As many cells as columns (InternalError otherwise).
   void Add(std::vector<TableCell> cells, Html across = {});
-  void TotalIsLast();  // the last row becomes the total
+  void AddCounted(std::vector<TableCell> keys, const Numbers& numbers);  // what its columns show of them
+  void TotalIsLast();                                                    // the last row becomes the total
 };
 
 // Columns by a text of their names, "signature* starts": those of texts have a star. "found_@" stands for a
 // column per outcome, "sum_#" for one per counter of a run.
 std::vector<Column> Columns(const std::string& names);
+
+std::vector<std::string> Split(std::string text, const std::string& at);
+// Lines of a text without empty ones and remarks (corpus/text_template.h); those behind two blanks go on above.
+std::vector<std::string> LinesOf(const std::string& text);
+
+// A table that tables.txt describes, without rows.
+Table Described(const std::string& name);
+// "a", "a-b", "a/b", "a%b", "a~b" as tables.txt says. Requires the numbers.
+TableCell CellOf(const std::string& expression, const Numbers& numbers);
 
 // ---- Tables of tables ----
 
@@ -100,11 +113,10 @@ double RoundedTo(int digits, double x);
 // Numbers by value, before words.
 bool NaturalLess(const std::string& left, const std::string& right);
 
-// The columns that a text names, in its order, "problems=given #loops": with another head, and the counts of a
-// ratio.
-Table Select(const Table& table, const std::string& columns, const std::string& caption);
 // A table per text of a column, without that column.
 std::map<std::string, Table> SplitBy(const Table& table, const std::string& column);
+// A table per policy, which `caption` names: "Policy {}:".
+std::vector<Table> SplitByPolicy(const Table& table, const char* caption = "Policy {}:");
 // The keys but `across` down, the values of `across` across; of a pair that has no row `missing`.
 Table Pivoted(const Table& table, const std::string& across, const std::string& value,
               const TableCell& missing);
@@ -125,8 +137,6 @@ std::string ToCsv(const Table& table);
 Json ToJson(const Table& table);
 // For a terminal; empty without rows.
 std::string ToText(const Table& table);
-// A part for each policy, below a title with its name.
-std::string TextByPolicy(const Table& table, const char* title);
 Html ToHtml(const Table& table);
 // A text in which nothing is a command of LaTeX.
 std::string LatexText(std::string_view text);

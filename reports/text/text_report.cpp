@@ -5,11 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <vector>
 
 #include "corpus/grouped.h"
-#include "corpus/intervals.h"
 #include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
@@ -18,6 +18,8 @@
 #include "corpus/store/finding_words.h"
 #include "corpus/store/store_totals.h"
 #include "reports/tables/campaign_tables.h"
+#include "reports/told/facts.h"
+#include "reports/told/report_txt.h"
 
 namespace stiction {
 namespace {
@@ -49,73 +51,8 @@ std::string InWords(const std::string& label) {
                            : fmt::format("doubles: {}, exact: {}", ends.substr(0, dash), ends.substr(dash + 1));
 }
 
-std::string RateSentence(std::int64_t count, std::int64_t runs) {
-  return fmt::format("{} in a million runs", RateText(count, runs));
-}
-
-// "1 is", "2 are".
-std::string Verb(std::int64_t count, const char* one, const char* more) {
-  return fmt::format("{} {}", Grouped(count), count == 1 ? one : more);
-}
-
-std::string Command(const std::string& text) { return "    " + text + "\n"; }
-
-// ---- Sentences, each of one subject ----
-
-std::string HeadLine(const StoreTotals& t, const Store& store, const std::string& file) {
-  std::string text = fmt::format("{}: {} in {}, seed {}", file, Counted(t.problems, "problem"),
-                                 Counted(t.units, "unit"), store.identity().seed);
-  if (t.counts.runs != t.problems)
-    text += fmt::format("; {}, each problem under every policy asked for", Counted(t.counts.runs, "run"));
-  return Paragraph(text, 0);
-}
-
-std::string RemarkLines(const CampaignIdentity& identity) {
-  std::string text;
-  const Json remarks = RemarksOf(identity);
-  for (const auto& [name, value] : remarks.items())
-    text += Paragraph(fmt::format("{}: {}", name, PlainValue(value)));
-  return text;
-}
-
-std::string GraveLines(const StoreTotals& t) {
-  std::string text;
-  for (const Finding& finding : t.grave)
-    text += Paragraph(fmt::format("GRAVE: {}: {}", finding.kind, finding.signature));
-  return text;
-}
-
-std::string LoopsText(const StoreTotals& t) {
-  const std::int64_t loops = t.counts.Loops(), runs = t.counts.runs;
-  if (runs == 0) return "";
-  if (loops == 0) {
-    return Paragraph(fmt::format("No run of the published algorithm, under {}, was found to loop: {}.",
-                                 PoliciesText(t.record), RateSentence(0, runs)));
-  }
-  std::string text =
-      Paragraph(fmt::format("The published algorithm, under {}, loops for ever in {}: {}. In the plane a state "
-                            "of such a run recurs, exactly; in space, as intervals prove, one does or the run "
-                            "never leaves a box: so it never ends.",
-                            PoliciesText(t.record), Counted(loops, "run"), RateSentence(loops, runs)));
-  const bool is_minimized =
-      std::any_of(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
-  const std::string grid =
-      t.finished_loops == 0
-          ? is_minimized ? "other policies were not looked at, which is done of minimized loops in the plane"
-                         : "none is minimized yet, which tells how many loop under every policy"
-          : fmt::format("of {} finished, {} under every policy that stiction distinguishes, as minimized",
-                        Grouped(t.finished_loops), Verb(t.whole_grid, "loops", "loop"));
-  text += Paragraph(fmt::format("Found in {}; {}.", Counted(t.LoopGroups(), "group"), grid));
-  if (t.loops.loops > 0) {
-    text += Paragraph(fmt::format(
-        "Steps of length zero in the periods of {}: {} none, {} no others.", Counted(t.loops.loops, "loop"),
-        Verb(t.loops.without_zero_steps, "has", "have"), Verb(t.loops.of_zero_steps_alone, "has", "have")));
-  }
-  return text;
-}
-
 // How the algorithm fails, in exact arithmetic or, in space, over intervals.
-std::string FailuresTable(const StoreTotals& t) {
+Table Failures(const StoreTotals& t) {
   Table table{"failures", "", Columns("repeated_exactly* outcome* runs in_a_million_[95_%]")};
   table.keys = 2;
   for (int i = 0; i < kOutcomeCount; ++i) {
@@ -124,7 +61,7 @@ std::string FailuresTable(const StoreTotals& t) {
     if (i != static_cast<int>(Outcome::kSolved) && count > 0)
       table.Add({InWords(name), name, count, RateOf(count, t.counts.runs)});
   }
-  return table.rows.empty() ? Paragraph("No run that was repeated exactly fails.") : ToText(table);
+  return table;
 }
 
 // What a label of doubles says, which is no disagreement of the exact methods.
@@ -134,84 +71,11 @@ std::string OfDoublesText(const std::string& label) {
 }
 
 // Groups of findings, by kind.
-std::string GroupsText(const StoreTotals& t) {
+std::string GroupsByKind(const StoreTotals& t) {
   std::vector<std::string> parts;
   for (const auto& [label, count] : t.groups)
     parts.push_back(fmt::format("{} of {}{}", Grouped(count), label, OfDoublesText(label)));
-  return parts.empty() ? Paragraph("No findings.")
-                       : Paragraph(fmt::format("Groups of findings: {}.", fmt::join(parts, ", ")));
-}
-
-std::string ExistenceText(const StoreTotals& t) {
-  const ExistenceTally& e = t.existence;
-  const AgreementTally& a = t.agreement;
-  std::string text;
-  if (e.problems == 0) {
-    text += Paragraph("Whether solutions exist was not asked: no problem was given to complete driving.");
-  } else {
-    const std::int64_t missed = e.problems - e.solved;
-    text +=
-        Paragraph(fmt::format("{}: of {} given to complete driving {} solved, each solution verified exactly "
-                              "({} with folds, where the published algorithm gives up).",
-                              missed == 0 ? "Complete driving never failed"
-                                          : fmt::format("Complete driving FAILED on {}", Grouped(missed)),
-                              Counted(e.problems, "problem"), Grouped(e.solved), Grouped(e.with_folds)));
-  }
-  const std::string disagree =
-      t.disagreements == 0 ? "they never disagree with each other" : Counted(t.disagreements, "disagreement");
-  if (a.compared > 0 || t.disagreements > 0)
-    text += Paragraph(fmt::format("Exact methods compared on {}, on {} of them all contact modes, too: {}.",
-                                  Counted(a.compared, "problem"), Grouped(a.enumerated), disagree));
-  if (a.safety_decided > 0)
-    text += Paragraph(
-        fmt::format("{} of {} {} safe (all reduced determinants are positive); under apex=suspended the "
-                    "published algorithm gave something up in {} of them.",
-                    Grouped(a.safe), Counted(a.safety_decided, "audited problem"), a.safe == 1 ? "is" : "are",
-                    Grouped(a.safe_gave_up)));
-  return text;
-}
-
-std::string DoublesText(const StoreTotals& t) {
-  const Counts& c = t.counts;
-  if (c.runs == 0) return "";
-  return Paragraph(fmt::format(
-      "Faults of doubles, not of the algorithm: in {} they differ from exact arithmetic ({} in a million), in "
-      "{} they call solved what is not ({} in a million). They were suspected in {}, and right in {} of them; "
-      "of "
-      "{}, {} misjudged.",
-      Counted(c.doubles_differ, "run"), RateText(c.doubles_differ, c.runs), Counted(c.wrong, "run"),
-      RateText(c.wrong, c.runs), Counted(c.suspicious, "run"), Grouped(c.confirmed),
-      Counted(c.audited, "audited run"), Verb(c.misjudged, "was", "were")));
-}
-
-// What the rates are worth: how much was audited, and what came of it.
-std::string WorthText(const StoreTotals& t) {
-  const Counts& c = t.counts;
-  if (c.runs == 0) return "";
-  const std::string misjudged =
-      c.audited == 0 ? "" : fmt::format("; {} of them were misjudged", ShareText(c.misjudged, c.audited));
-  std::string text = "In brackets: exact intervals at 95 %. ";
-  if (c.audited + c.suspicious == c.runs) {
-    text += fmt::format("Every run was repeated exactly{}.", misjudged);
-  } else {
-    text += fmt::format(
-        "Rates are lower bounds: loops that doubles take for solutions are not counted. {} of {} without a "
-        "suspicion were audited{}.",
-        Grouped(c.audited), Counted(c.runs - c.suspicious, "run"), misjudged);
-  }
-  return Paragraph(text);
-}
-
-std::string FinishText(const StoreTotals& t, const std::string& file) {
-  // What exact runs do not decide, or do not show again, has neither.
-  const auto minimized = std::ssize(t.simplest);
-  const std::string without =
-      minimized == t.finished ? "" : fmt::format(", {} finished without that", Grouped(t.finished - minimized));
-  std::string text = Paragraph(
-      fmt::format("Representatives, one of each group as far as kept: {} certified and minimized{}, {} to go.",
-                  Grouped(minimized), without, Grouped(t.pending)));
-  if (t.pending > 0) text += Paragraph("What is to go is finished by:") + Command(FinishCommand(file));
-  return text;
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 // What happens to a finished finding, minimized.
@@ -230,95 +94,72 @@ std::string FindingText(const Finding& finding) {
   return text + (grid.empty() ? "; in space, over intervals" : "; policies: " + grid);
 }
 
-std::string SimplestText(const StoreTotals& t) {
-  if (t.simplest.empty()) return "";
-  std::string text = "Simplest, proved and minimized:\n";
-  for (std::size_t i = 0; i < std::min(kShown, t.simplest.size()); ++i) {
-    text += Paragraph(t.simplest[i].signature);
-    text += Paragraph(FindingText(t.simplest[i]), 6);
-  }
-  return text;
-}
-
-// ---- The page's own sections ----
-
-// A table of failures for each policy, on two screens for one; `names` stand before the runs.
-std::string FailuresByPolicy(const Record& record, const By& names, const char* title, Extent extent) {
+// A table of failures for each policy; `names` stand before the runs.
+std::vector<Table> FailuresByPolicy(const Record& record, const By& names, const char* title = "Policy {}:") {
   By by = names;
   by.insert(by.begin(), "policy");
-  std::string columns;
-  for (const std::string& name : by) columns += name == "friction" ? "friction=mu " : name + " ";
-  columns += "runs #loops loops=in_a_million_[95_%] #singular #ray=rays";
-  const Table table = Select(FailuresTable(record, by), columns, "");
-  if (extent == Extent::kAll) return TextByPolicy(table, title);
-  const std::map<std::string, Table> parts = SplitBy(table, "policy");
-  if (parts.empty()) return "";
-  const auto paper = parts.find("paper");
-  const auto& [policy, part] = paper == parts.end() ? *parts.begin() : *paper;
-  return Paragraph(fmt::format(fmt::runtime(title), policy)) + ToText(part);
+  Table table = CountedBy("rates", by, GroupsBy(record, by));
+  for (Column& column : table.columns)
+    if (column.name == "friction") column.head = "mu";
+  return SplitByPolicy(table, title);
 }
 
-// A, b and mu, if they fit.
-std::string ProblemText(const ExactProblem& problem) {
-  if (problem.rows() > kMostRowsInNumbers) return Paragraph("Its numbers are too many for a page of text.");
+// That of the policy paper, or of the first.
+std::vector<Table> FailuresOfOnePolicy(const Record& record) {
+  std::vector<Table> tables = FailuresByPolicy(record, {"generator"});
+  const auto paper = std::ranges::find(tables, "Policy paper:", &Table::caption);
+  if (paper != tables.end()) return {*paper};
+  tables.resize(std::min<std::size_t>(tables.size(), 1));
+  return tables;
+}
+
+// A and b, and mu, if they fit.
+void AddNumbers(Facts& facts, const ExactProblem& problem) {
   Table table{"problem", "", std::vector<Column>(static_cast<std::size_t>(problem.rows()) + 2)};
   table.columns.front().name = "A";
   table.columns.back().name = "b";
-  for (int row = 0; row < problem.rows(); ++row) {
+  std::size_t longest = 0;
+  for (int row = 0; row < problem.rows() && problem.rows() <= kMostRowsInNumbers; ++row) {
     std::vector<TableCell> cells = {""};
     for (int column = 0; column < problem.rows(); ++column)
       cells.emplace_back(ToString(problem.A(row, column)));
     cells.emplace_back(ToString(problem.b[row]));
-    for (const TableCell& cell : cells) {
-      if (Shown(cell).size() > kLongestWord) return Paragraph("Its numbers are too long for a page of text.");
-    }
+    for (const TableCell& cell : cells) longest = std::max(longest, Shown(cell).size());
     table.Add(std::move(cells));
   }
   std::vector<std::string> mu;
   for (const auto& contact : problem.contacts)
     mu.push_back(contact.HasFrictionRows() ? ToString(contact.mu) : std::string(Name(contact.kind)));
-  return ToText(table) + Paragraph(fmt::format("mu = {}", fmt::join(mu, ", ")));
+  facts.tables["numbers"] = [table] { return std::vector<Table>{table}; };
+  facts.texts["mu"] = fmt::format("{}", fmt::join(mu, ", "));
+  facts.texts["numbers_are"] = problem.rows() > kMostRowsInNumbers ? "many" : "long";
+  facts.numbers["simplest_fits"] = problem.rows() <= kMostRowsInNumbers && longest <= kLongestWord;
 }
 
-std::string SimplestInFull(const StoreTotals& t, const std::string& file) {
-  const auto first =
-      std::find_if(t.simplest.begin(), t.simplest.end(), [](const Finding& f) { return IsLoopKind(f.kind); });
-  if (first == t.simplest.end()) return "";
-  const std::string problem = "report/findings/" + FileName(first->signature) + ".json";
-  const std::string options = ReplayOptionsOf(*first);
-  std::string text = "\n" + Heading("The simplest loop: " + first->signature);
-  text += Paragraph(FindingText(*first) + ".") +
-          ProblemText(ParseProblem(first->minimized, first->signature).problem);
-  text += Paragraph("Step by step, with every force, and as a page in which to step:");
-  text += Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file)));
-  text += Command(fmt::format("{} replay {} --step{}", ProgramName(), problem, options));
-  text += Command(fmt::format("{} replay {} --html loop.html{}", ProgramName(), problem, options));
-  text += Paragraph("The problem as the search drew it:");
-  text +=
-      Command(fmt::format("{} problem {} {} {}", ProgramName(), ShellWord(file), first->unit, first->index));
-  return text;
+void AddSimplest(Facts& facts, const StoreTotals& t) {
+  const auto first = std::ranges::find_if(t.simplest, [](const Finding& f) { return IsLoopKind(f.kind); });
+  if (first == t.simplest.end()) return;
+  facts.texts["simplest"] = first->signature;
+  facts.texts["simplest_story"] = FindingText(*first);
+  facts.texts["simplest_file"] = "report/findings/" + FileName(first->signature) + ".json";
+  facts.texts["replay_options"] = ReplayOptionsOf(*first);
+  facts.texts["simplest_unit"] = std::to_string(first->unit);
+  facts.texts["simplest_index"] = std::to_string(first->index);
+  AddNumbers(facts, ParseProblem(first->minimized, first->signature).problem);
 }
 
-std::string NewLoops(const StoreTotals& t, const KnownCase& known_as, std::size_t shown) {
+void AddNewLoops(Facts& facts, const StoreTotals& t, const KnownCase& known_as, std::size_t shown) {
   std::vector<std::pair<std::string, std::int64_t>> unknown;
-  std::int64_t loops = 0;
-  for (const auto& [signature, count] : t.record.signatures) {
-    if (!IsLoopKind(KindOf(signature))) continue;
-    ++loops;
-    if (known_as(signature).empty()) unknown.emplace_back(signature, count);
-  }
-  if (loops == 0) return "";
-  const auto all = static_cast<std::int64_t>(unknown.size());
-  std::string text = "\n" + Heading("New groups of loops");
-  text += Paragraph(
-      fmt::format("Of {} {} shown by no case of the corpus.", Counted(loops, "group"), Verb(all, "is", "are")));
-  std::stable_sort(unknown.begin(), unknown.end(),
-                   [](const auto& left, const auto& right) { return left.second > right.second; });
+  for (const auto& [signature, count] : t.record.signatures)
+    if (IsLoopKind(KindOf(signature)) && known_as(signature).empty()) unknown.emplace_back(signature, count);
+  facts.numbers["new_loops"] = std::ssize(unknown);
+  facts.numbers["new_shown"] = static_cast<std::int64_t>(shown);
+  facts.numbers["too_many_new"] = unknown.size() > shown;
+  std::ranges::stable_sort(unknown, std::greater(), &std::pair<std::string, std::int64_t>::second);
+  unknown.resize(std::min(shown, unknown.size()));
   Table table{"new", "", Columns("signature* runs")};
-  for (std::size_t i = 0; i < std::min(shown, unknown.size()); ++i)
-    table.Add({unknown[i].first, unknown[i].second});
-  if (unknown.size() > shown) text += Paragraph(fmt::format("The {} that were met most often:", shown));
-  return text + ToText(table);
+  for (const auto& [signature, count] : unknown) table.Add({signature, count});
+  facts.tables["new"] = [table] { return std::vector<Table>{table}; };
 }
 
 // "0.1.0 2060e9f249a5, GNU 12.2.0 Release" of a build, whose flags follow.
@@ -327,70 +168,71 @@ std::string WithoutFlags(const std::string& build) {
   return first == build.npos ? build : build.substr(0, build.find(',', first + 1));
 }
 
-// Rates under every policy, by contacts and friction, too; or by generator, under the first one.
-std::string RatesText(const StoreTotals& t, Extent extent) {
-  if (t.counts.runs == 0) return "";
-  std::string text = "\n" + Heading("How often it fails, in exact arithmetic or, in space, over intervals");
-  if (extent == Extent::kTwoScreens)
-    return text + FailuresByPolicy(t.record, {"generator"}, "Policy {}:", extent);
-  return text + FailuresByPolicy(t.record, {"generator", "contacts"}, "Policy {}:", extent) + "\n" +
-         Heading("The same by friction coefficient") +
-         Paragraph(
-             "Of bodies mu is friction; of matrices alone it speaks of how they were drawn, since other "
-             "units of the tangents make another mu of it.") +
-         FailuresByPolicy(t.record, {"friction"}, "Policy {}, all generators together:", extent);
-}
-
 // But for machines and processor times, which `status` tells: equal searches give equal reports. On two screens
 // what makes its problems.
-std::string SearchedText(const Store& store, const StoreTotals& t, const std::string& file, Extent extent) {
-  const CampaignIdentity& identity = store.identity();
-  std::string text = "\n" + Heading("What was searched");
+void AddSearched(Facts& facts, const CampaignIdentity& identity, const StoreTotals& t) {
+  Lines &all = facts.lists["searched"], &short_one = facts.lists["makes_problems"];
   const Json definition = ToldDefinition(identity);
-  if (definition.is_object()) {
-    for (const auto& [key, value] : definition.items()) {
-      const bool makes_problems = key == "generators" || key == "contacts" || key == "mu" || key == "note";
-      if (key != "format" && key != "version" && (makes_problems || extent == Extent::kAll))
-        text += Paragraph(fmt::format("{}: {}", key, PlainValue(value)));
-    }
+  if (!definition.is_object()) {
+    all = short_one = {{identity.definition, ""}};
   } else {
-    text += Paragraph(identity.definition);
+    for (const auto& [key, value] : definition.items()) {
+      if (key == "format" || key == "version") continue;
+      all.emplace_back(fmt::format("{}: {}", key, PlainValue(value)), "");
+      if (key == "generators" || key == "contacts" || key == "mu" || key == "note")
+        short_one.push_back(all.back());
+    }
   }
   const Json policies = Json::parse(identity.policies, nullptr, false);
-  if (extent == Extent::kAll)
-    text += Paragraph("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies));
-  text += Paragraph(fmt::format("seed {}, version {} of the algorithm", identity.seed, identity.algorithm));
-  for (const std::string& build : t.work.builds) {
-    if (extent == Extent::kAll || &build == &*t.work.builds.begin())
-      text += Paragraph("build: " + WithoutFlags(build));
-  }
-  if (extent == Extent::kAll) return text;
-  return text + Paragraph("By contacts, friction and every policy, with the campaign in full:", 0) +
-         Command(fmt::format("{} report {} --text --all", ProgramName(), ShellWord(file)));
+  all.emplace_back("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies), "");
+  Lines& builds = facts.lists["builds"];
+  for (const std::string& build : t.work.builds) builds.emplace_back("build: " + WithoutFlags(build), "");
+  facts.lists["build"] = builds.empty() ? Lines() : Lines{builds.front()};
 }
 
-std::string Findings(const StoreTotals& t) {
-  return LoopsText(t) + FailuresTable(t) + GroupsText(t) + ExistenceText(t) + DoublesText(t) + WorthText(t);
+Facts TextFacts(const Store& store, const StoreTotals& t, const std::string& file) {
+  Facts facts = FactsOf(t, store.identity());
+  facts.texts.insert({{"file", file},
+                      {"file_word", ShellWord(file)},
+                      {"program", ProgramName()},
+                      {"groups_by_kind", GroupsByKind(t)},
+                      {"finish", FinishCommand(file)},
+                      {"time", TimeText(t.work.time)},
+                      {"simplest", ""}});
+  facts.numbers["fails"] = t.counts.runs > 0 && !Failures(t).rows.empty();
+  facts.tables["failures"] = [&t] { return std::vector<Table>{Failures(t)}; };
+  Lines &grave = facts.lists["grave"], &remarks = facts.lists["remarks"],
+        &simplest = facts.lists["simplest_ones"];
+  for (const Finding& finding : t.grave)
+    grave.emplace_back(fmt::format("GRAVE: {}: {}", finding.kind, finding.signature), "");
+  const Json told = RemarksOf(store.identity());
+  for (const auto& [name, value] : told.items())
+    remarks.emplace_back(fmt::format("{}: {}", name, PlainValue(value)), "");
+  for (std::size_t i = 0; i < std::min(kShown, t.simplest.size()); ++i)
+    simplest.emplace_back(t.simplest[i].signature, FindingText(t.simplest[i]));
+  return facts;
 }
 
 }  // namespace
 
 std::string SummaryText(const Store& store, const std::string& file) {
   const StoreTotals t = TotalsOf(store);
-  return HeadLine(t, store, file) + GraveLines(t) + RemarkLines(store.identity()) + Findings(t) +
-         FinishText(t, file) + Paragraph(TimeText(t.work.time)) + SimplestText(t) +
-         Paragraph("More as text; all as a page, with files to replay and to check:", 0) +
-         Command(fmt::format("{} report {} --text", ProgramName(), ShellWord(file))) +
-         Command(fmt::format("{} report {} -o report", ProgramName(), ShellWord(file))) +
-         Paragraph("More --minutes or --problems go on from here.", 0);
+  return ToText(Tell(kReportTxt, TextFacts(store, t, file), {"summary"}), "summary");
 }
 
 std::string TextReport(const Store& store, const std::string& file, const KnownCase& known_as, Extent extent) {
   const StoreTotals t = TotalsOf(store);
-  const std::size_t shown = extent == Extent::kAll ? kShown : kShownOfTwo;
-  return HeadLine(t, store, file) + GraveLines(t) + "\n" + Heading("What was found") + Findings(t) +
-         FinishText(t, file) + SimplestInFull(t, file) + NewLoops(t, known_as, shown) + RatesText(t, extent) +
-         SearchedText(store, t, file, extent);
+  Facts facts = TextFacts(store, t, file);
+  AddSimplest(facts, t);
+  AddNewLoops(facts, t, known_as, extent == Extent::kAll ? kShown : kShownOfTwo);
+  AddSearched(facts, store.identity(), t);
+  facts.tables["rates"] = [&t] { return FailuresOfOnePolicy(t.record); };
+  facts.tables["all_rates"] = [&t] { return FailuresByPolicy(t.record, {"generator", "contacts"}); };
+  facts.tables["friction_rates"] = [&t] {
+    return FailuresByPolicy(t.record, {"friction"}, "Policy {}, all generators together:");
+  };
+  const std::string medium = extent == Extent::kAll ? "all" : "text";
+  return ToText(Tell(kReportTxt, facts, {medium}), medium);
 }
 
 }  // namespace stiction

@@ -15,7 +15,7 @@ NEVER_ONE = {
     ("cli/policies.cpp", "policies"), ("cli/replay.cpp", "policies"),  # the grid
     ("cli/narration/explained.cpp", "choices"), ("cli/narration/followed.cpp", "steps"), ("cli/narration/problem_text.cpp", "rows"),
     ("cli/replay.cpp", "steps"), ("cli/live/live.cpp", "rows"), ("cli/slurm.cpp", "problems"), ("cli/certify.cpp", "solutions"),
-    ("reports/page/page.cpp", "units"), ("reports/page/sentences.cpp", "contacts"), ("reports/comparison/solvers.cpp", "rows"),
+    ("reports/page/page_facts.cpp", "units"), ("reports/told/facts.cpp", "contacts"), ("reports/comparison/solvers.cpp", "rows"),
     ("reports/page/rungs.cpp", "problems"),
 }
 

@@ -114,7 +114,11 @@ class TextReport(cli.TestCase):
         for name in ("comparison", "comparison_steps"):
             with open(out / f"{name}.csv", newline="") as file:
                 columns, *rows = csv.reader(file)
-            self.assertEqual(figures[name], {"columns": columns, "rows": rows})
+            drawn = [["" if cell is None else str(cell) for cell in row] for row in figures[name]["rows"]]
+            self.assertEqual((figures[name]["columns"], len(drawn)), (columns, len(rows)))
+            for row, cells in zip(drawn, rows):
+                self.assertEqual([cell if cell == wanted else float(cell) for cell, wanted in zip(row, cells)],
+                                 [wanted if cell == wanted else float(wanted) for cell, wanted in zip(row, cells)])
         with open(out / "comparison.csv", newline="") as file:
             beyond = [row for row in csv.DictReader(file) if row["more_than_noise"] == "yes"]
         table = re.search(r"<table>\s*<caption>Differences that are more than noise.*?</table>", page, re.S)[0]

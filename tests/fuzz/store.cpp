@@ -15,7 +15,6 @@
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/store/store_rows.h"
-#include "reports/page/figures.h"
 #include "reports/page/page.h"
 #include "reports/tables/campaign_tables.h"
 #include "reports/text/text_report.h"
@@ -241,16 +240,15 @@ void ReadFindings(const Store& store) {
   }
   ReportContent content;
   content.identity = store.identity();
-  content.units = store.Units().Count();
   content.blocks = static_cast<std::int64_t>(store.Blocks().size());
-  content.total = store.Total();
-  content.work = store.TotalWork();
-  content.discoveries = Discoveries(content.total, findings);
+  content.totals = TotalsOf(store);
+  content.discoveries = Discoveries(content.totals.record, findings);
   ToCsv(FindingsTable(content.discoveries));
   const auto figures = Figures(content);
-  FrontPage(content, figures);
-  ResultsPage(content, figures);
-  FindingsPage(content);
+  const Told told = Tell(content, {"index", "results", "findings"});
+  JsonText(ToJson(told));
+  for (const char* name : {"index", "results"}) Page(name, content, told, figures);
+  FindingsPage(content, told);
 }
 
 void ReadTotal(const Store& store) {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "corpus/json.h"
-#include "reports/page/measured_page.h"
+#include "reports/page/page.h"
 
 namespace stiction {
 namespace {
@@ -38,14 +38,15 @@ RungLine Measured(const std::string& arithmetic, std::int64_t wrong, std::int64_
   return {.family = "masses",
           .method = "complete",
           .arithmetic = arithmetic,
-          .problems = 25,
-          .solved = 24,
-          .undecided = 0,
-          .other = 0,
-          .refused = 1,
-          .wrong = wrong,
-          .silent = silent,
-          .microseconds = 2.5,
+          .counts = {{"problems", 25},
+                     {"solved", 24},
+                     {"undecided", 0},
+                     {"other", 0},
+                     {"refused", 1},
+                     {"asked", 24},
+                     {"wrong", wrong},
+                     {"silent", silent}},
+          .microseconds = {2.5},
           .worst_residual = 0};
 }
 
@@ -59,21 +60,22 @@ TEST_CASE("measured: the figure of the records has numbers, and nothing where no
 }
 
 TEST_CASE("measured: the best of a search stands beside the records of its objective and size alone") {
-  const std::string section =
-      FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 3}}).markup();
-  const std::string table = section.substr(0, section.find("</table>"));
-  CHECK_THAT(table, Contains("friction-gravity-3-contacts 1/88"));
-  CHECK_THAT(table, !Contains("steps-3-contacts"));
-  const std::string larger =
-      FrontiersSection(KnownRecords(), {{"friction", "fine-scenes", "1", "1/5", 4}}).markup();
-  CHECK_THAT(larger.substr(0, larger.find("</table>")), !Contains("contacts 1/88"));
-  CHECK(FrontiersSection({}).markup().empty());
+  const std::vector<FrontierLine> records = KnownRecords();
+  for (const int contacts : {3, 4}) {
+    const std::vector<OwnBest> own = {{"friction", "fine-scenes", "1", "1/5", contacts}};
+    Facts facts;
+    AddFrontiers(facts, records, own);
+    CHECK(facts.numbers.at("records") == 2);
+    const std::string beside = Shown(facts.tables.at("own")().front().rows.at(0).cells.back());
+    CHECK(beside == (contacts == 3 ? "friction-gravity-3-contacts 1/88" : ""));
+  }
 }
 
 TEST_CASE("measured: the page counts rounded numbers apart from exact ones, and remedies as no arithmetic") {
-  const std::vector<RungLine> lines = {Measured("double", 2, 1), Measured("double scaled", 3, 0),
-                                       Measured("filtered", 0, 0)};
-  const std::string page = MeasuredPage(lines, {}, {"/somewhere/trade.csv"}, {RungsFigure(lines)});
+  ReportContent content;
+  content.rungs = {Measured("double", 2, 1), Measured("double scaled", 3, 0), Measured("filtered", 0, 0)};
+  content.benches = {"/somewhere/trade.csv"};
+  const std::string page = Page("measured", content, Tell(content, {"measured"}), {RungsFigure(content.rungs)});
   for (const char* said :
        {"1 method over 2 arithmetics, on 1 kind of problems",
         "Over rounded numbers of 48 runs 5 were wrong, 1 of them silently",

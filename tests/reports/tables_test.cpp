@@ -8,8 +8,7 @@
 
 #include "corpus/intervals.h"
 #include "corpus/json.h"
-#include "reports/page/page.h"
-#include "reports/tables/table.h"
+#include "reports/tables/campaign_tables.h"
 
 namespace stiction {
 namespace {
@@ -60,6 +59,11 @@ Record SmallRecord() {
   return record;
 }
 
+Html ShownOf(const char* name) {
+  const Record record = SmallRecord();
+  return ToHtml(ShownTables(record).at(name)().front());
+}
+
 // Two groups, a rate and a share of each.
 Table Sample() {
   Table table{"sample",
@@ -83,8 +87,16 @@ TEST_CASE("tables: one table says the same in every medium") {
         "a_b,paper,3,4000000,0.75,0.154668,2.19182,1\r\n<c>,other,0,1000,0,0,3688.88,0\r\n");
   CHECK(ToJson(table)["rows"][0] == Json({"a_b", "paper", 3, 4000000, 0.75, 0.154668, 2.19182, 1}));
   CHECK(ToJson(table)["columns"].size() == 8);
-  const Table shown =
-      Select(table, "generator policy #loops=so_many loops=in_a_million lost_ones", "A <caption>");
+  Table shown{
+      "sample",
+      "A <caption>",
+      {{"generator", "", kText}, {"policy", "", kText}, {"so_many"}, {"in_a_million"}, {"lost_ones", "a hint"}},
+      {},
+      {},
+      2};
+  for (const Table::Row& row : table.rows)
+    shown.Add(
+        {row.cells[0], row.cells[1], std::get<Ratio>(row.cells[2].value).count, row.cells[2], row.cells[3]});
   const std::string rate = RateText(3, 4000000), share = ShareText(1, 4);
   const std::string text = ToText(shown), page = ToHtml(shown).markup(), paper = ToLatex(shown);
   CHECK(std::regex_search(text, std::regex("^  generator  policy  so many +in a million +lost ones\n")));
@@ -119,44 +131,24 @@ TEST_CASE("tables: parts, pivots and melted tables keep every cell") {
 }
 
 TEST_CASE("tables: suspicions beside their exact outcomes, a wrong answer never confirmed") {
-  const Html section = DoublesSection(SmallRecord());
+  const Html section = ShownOf("suspicions");
   const std::string caption = "Suspicious runs in doubles and their exact outcome";
-  CHECK(RowOf(section, caption, "cycle") == Cells{"cycle", "6", "1", "5", "0", "0", "0", "0", "0", "83.3%"});
-  CHECK(RowOf(section, caption, "ray") == Cells{"ray", "2", "2", "0", "0", "0", "0", "0", "0", "0%"});
+  CHECK(RowOf(section, caption, "cycle") ==
+        Cells{"cycle", "6", "1", "5", "0", "0", "0", "0", "0", "5 " + ShareText(5, 6)});
+  CHECK(RowOf(section, caption, "ray") ==
+        Cells{"ray", "2", "2", "0", "0", "0", "0", "0", "0", "0 " + ShareText(0, 2)});
   CHECK(RowOf(section, caption, "solved, but wrong") ==
         Cells{"solved, but wrong", "4", "4", "0", "0", "0", "0", "0", "0", "–"});
 }
 
 TEST_CASE("tables: what doubles said, by generator and in all") {
-  const Html section = DoublesSection(SmallRecord());
+  const Html section = ShownOf("trust");
   const std::string caption = "Suspicions, audits and wrong answers per generator";
   for (const char* row : {"psd", "all"}) {
-    CHECK(RowOf(section, caption, row) ==
-          Cells{row, "100", "12 120,000 [63,500, 201,000]", "7 58.3%", "7", "3", "4 40,000 [11,000, 99,300]"});
+    CHECK(RowOf(section, caption, row) == Cells{row, "100", "12 120,000 [63,500, 201,000]",
+                                                "7 " + ShareText(7, 12), "7", "3",
+                                                "4 40,000 [11,000, 99,300]"});
   }
-}
-
-TEST_CASE("tables: problems count once, runs for every policy, and what was only counted is not pending") {
-  ReportContent content;
-  content.units = 1;
-  for (const char* policy : {"paper", "ties=contacts"})
-    content.total.tallies[{"psd", 2, policy}].problems = 1234;
-  Finding finding;
-  finding.signature = "cycle-2c-4d-10s-00";
-  finding.kind = finding.exact_outcome = "cycle";
-  finding.contacts = 2;
-  finding.problem = R"({"format":"stiction-problem","version":1,"name":"n","dimension":2,)"
-                    R"("contacts":[{"kind":"frictionless"}],"A":[["1"]],"b":["1"]})";
-  Record record;
-  record.signatures = {{finding.signature, 7}, {"cycle-2c-4d-12s-00", 5}};
-  const std::vector<Finding> findings = {finding};
-  content.discoveries = Discoveries(record, findings);
-  const Html section = CountedSection(content);
-  CHECK(section.markup().find("<strong>1,234</strong> <span>problems run</span>") != std::string::npos);
-  CHECK(section.markup().find("<strong>2,468</strong>") != std::string::npos);
-  // groups, finished, pending, only counted
-  const Cells all = RowOf(section, "Of the algorithm, in exact arithmetic", "all");
-  CHECK(Cells(all.begin(), all.begin() + 5) == Cells{"all", "2", "0", "1", "1"});
 }
 
 TEST_CASE("tables: every policy loops if all of the grid do") {
@@ -179,11 +171,11 @@ TEST_CASE("tables: of a loop whose policies were not looked at nothing is said o
 }
 
 TEST_CASE("tables: what must be zero stands where it is not") {
-  const Html section = ExistenceSection(SmallRecord());
+  const Html driving = ShownOf("driving"), methods = ShownOf("agreement");
   for (const char* row : {"2", "all"}) {
-    const Cells existence = RowOf(section, "Complete driving on the problems that were given to it", row);
+    const Cells existence = RowOf(driving, "Complete driving on the problems that were given to it", row);
     CHECK(Cells(existence.begin(), existence.begin() + 4) == Cells{row, "30", "19", "11"});
-    const Cells agreement = RowOf(section, "Methods", row);
+    const Cells agreement = RowOf(methods, "Methods", row);
     CHECK(Cells(agreement.begin(), agreement.begin() + 4) == Cells{row, "23", "0", "9"});
     CHECK(agreement[6] == "8");
     CHECK(agreement.back() == "6");

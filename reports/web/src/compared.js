@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of two campaigns. Their tables hold the cells of the CSV files, as text.
+// The figures of two campaigns, of the cells of their CSV files.
 import {dot, ruleX, ruleY} from '../vendor/plot.js';
 
 import * as p from './plots.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of a report, by the names of their places in the page (../../page/figures.h has the tables).
+// The figures of a report, by the names of their places in the page (../../page/page.h has the tables).
 // `choices(rows)`: what can be chosen, by column; `draw(rows, width, chosen)`: elements.
 import {barX, dot, ruleX, ruleY} from '../vendor/plot.js';
 

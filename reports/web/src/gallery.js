@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The findings as a table to sort, filter and search, a page of it at a time. Rows that the program wrote are
-// taken as they stand, with their pictures; the others are made of the data, which is unpacked when it is asked for:
-// a page with ten thousand opens as fast as one with ten.
+// The findings as a table to sort, filter and search, a page of it at a time. What the program wrote of the first ones
+// below their rows is taken as it stands, with their pictures; all else is made of the data, which is unpacked when it
+// is asked for: a page with ten thousand opens as fast as one with ten.
 import {byId, element} from './dom.js';
 import {addressOf, nameOfFinding} from './names.js';
 
@@ -115,8 +115,7 @@ class Gallery {
     const written = [...this.body.rows];
     for (let i = 0; i + 1 < written.length; i += 2) {
       const finding = this.at(i / 2);
-      written[i].cells[0].replaceChildren(...headOf(finding));
-      this.rows.set(finding.signature, [written[i], written[i + 1]]);
+      this.rows.set(finding.signature, [row(finding), written[i + 1]]);
     }
     this.sorted = null;
     this.down = false;
