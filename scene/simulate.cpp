@@ -11,6 +11,7 @@
 
 #include "scene/motion.h"
 #include "scene/parallel.h"
+#include "solver/in_turn.h"
 
 namespace stiction {
 namespace {
@@ -56,19 +57,20 @@ constexpr int FactorRows(Level level, int dimension) {
 template <class Kind, class Model>
 SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, std::size_t island,
                         const Eigen::VectorXd& start) {
+  const auto with_A = [&] { return solver.Solve(model.Problem(island)); };
   if (model.islands[island].rows < FactorRows(level, Kind::kDimension)) {
-    SceneAnswer answer = solver.Solve(model.Problem(island));
-    if (answer.Solved() && answer.counters[Counter::kLoose] == 0) return answer;
-    SceneAnswer other = solver.Solve(model.InFactors(island));
-    return other.Solved() ? other : answer;
+    const auto is_sure = [](const SceneAnswer& answer) {
+      return answer.Solved() && answer.counters[Counter::kLoose] == 0;
+    };
+    return InTurn<SceneAnswer>({with_A, [&] { return solver.Solve(model.InFactors(island)); }}, is_sure,
+                               [](const SceneAnswer& answer, const SceneAnswer&) { return answer.Solved(); });
   }
   const auto problem = model.InFactors(island);
-  if (start.size() > 0) {
-    SceneAnswer answer = solver.Solve(problem, &start);
-    if (answer.Solved()) return answer;
-  }
-  SceneAnswer answer = solver.Solve(problem);
-  return answer.Solved() ? answer : solver.Solve(model.Problem(island));
+  Runs<SceneAnswer> runs;
+  if (start.size() > 0) runs.emplace_back([&] { return solver.Solve(problem, &start); });
+  runs.emplace_back([&] { return solver.Solve(problem); });
+  runs.emplace_back(with_A);
+  return InTurn(runs);
 }
 
 }  // namespace

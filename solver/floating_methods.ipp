@@ -45,17 +45,30 @@ Answer<Scalar> RunProximal(const ContactProblem<Scalar>& problem, const Request&
   return answer;
 }
 
+template <class Scalar>
+Answer<Scalar> RunCells(const ContactProblem<Scalar>& problem, const Request& request) {
+  FastSolver<Scalar> solver(Aiming<Scalar>(request));
+  auto answer = AnswerOf<Scalar>(solver.Run(problem));
+  answer.f = solver.f();
+  if (answer.Solved()) answer.word = solver.Word();
+  return answer;
+}
+
 // Where masses or jams are beyond what pivots of this scalar tell apart, proximal points may still be found.
 template <class Scalar>
 Answer<Scalar> RunFast(const ContactProblem<Scalar>& problem, const Request& request) {
+  Counters of_cells;
   const auto run_cells = [&] {
-    FastSolver<Scalar> solver(Aiming<Scalar>(request));
-    auto answer = AnswerOf<Scalar>(solver.Run(problem));
-    answer.f = solver.f();
-    if (answer.Solved()) answer.word = solver.Word();
+    Answer<Scalar> answer = RunCells(problem, request);
+    of_cells = answer.counters;
     return answer;
   };
-  return InTurn(request.limits, run_cells, [&] { return RunProximal(problem, request); });
+  const auto run_proximal = [&] {
+    Answer<Scalar> answer = request.limits.Stopped() ? Answer<Scalar>() : RunProximal(problem, request);
+    answer.counters += of_cells;
+    return answer;
+  };
+  return InTurn<Answer<Scalar>>({run_cells, run_proximal});
 }
 
 template <class Scalar, CoulombStart kStart>

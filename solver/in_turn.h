@@ -1,32 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs in turn, of one method that consists of several.
+// Runs in turn: what a method, a claim or a scene tries one after the other until something is decided.
 
 #ifndef STICTION_SOLVER_IN_TURN_H_
 #define STICTION_SOLVER_IN_TURN_H_
 
+#include <functional>
 #include <utility>
+#include <vector>
 
-#include "solver/problem/answer.h"
-#include "solver/problem/options.h"
+#include "solver/problem/solution.h"
 
 namespace stiction {
 
-// The first answer that is solved, or a better one than the first: one that is not undecided, where that is.
-// Each run is a function without arguments; none is begun once the limits stop them. The counters of the first
-// are added to those of what takes its place.
-template <class First, class... Others>
-auto InTurn(const Limits& limits, First first, Others... others) {
-  auto best = first();
-  const auto attempt = [&](auto& run) {
-    if (best.Solved() || limits.Stopped()) return;
-    auto other = run();
-    const bool decides = best.outcome == Outcome::kUndecided && other.outcome != Outcome::kUndecided;
-    if (!other.Solved() && !decides) return;
-    other.counters += best.counters;
-    best = std::move(other);
-  };
-  (attempt(others), ...);
+template <class Told>
+using Runs = std::vector<std::function<Told()>>;
+
+// The first that decides(told) takes; otherwise the best by replaces(told, best), of several the first. At
+// least one run. decides() is asked of each once.
+template <class Told, class Decides, class Replaces>
+Told InTurn(const Runs<Told>& runs, Decides decides, Replaces replaces) {
+  Told best = runs.front()();
+  bool done = decides(best);
+  for (std::size_t k = 1; k < runs.size() && !done; ++k) {
+    Told told = runs[k]();
+    done = decides(told);
+    if (done || replaces(told, best)) best = std::move(told);
+  }
   return best;
+}
+
+// Of answers: the first that is solved, otherwise the first that is not undecided, if one is.
+template <class Answer>
+Answer InTurn(const Runs<Answer>& runs) {
+  return InTurn(
+      runs, [](const Answer& answer) { return answer.Solved(); },
+      [](const Answer& answer, const Answer& best) {
+        return best.outcome == Outcome::kUndecided && answer.outcome != Outcome::kUndecided;
+      });
 }
 
 }  // namespace stiction

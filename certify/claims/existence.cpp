@@ -15,22 +15,11 @@
 #include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
+#include "solver/in_turn.h"
 
 namespace stiction {
 
 namespace {
-
-ClaimAnswer DecidedBy(std::string_view method, Json certificate) {
-  ClaimAnswer answer = ByCertificate(std::move(certificate));
-  answer.method = method;
-  return answer;
-}
-
-// Of an answer that is solved.
-ClaimAnswer DecidedBy(const ExactProblem& problem, const Answer<Rational>& answer) {
-  return DecidedBy(answer.method, answer.bound ? CoulombCertificate(problem, answer.f, *answer.bound)
-                                               : SolutionCertificate(problem, answer.f));
-}
 
 // "complete: out of drives".
 std::string HowItEnded(const Answer<Rational>& answer) {
@@ -54,58 +43,80 @@ std::string HowItEnded(const Enumeration& modes) {
   return "enumerate: nothing";
 }
 
-ClaimAnswer Undecided(const std::vector<std::string>& ends) {
-  return ByCertificate(nullptr, fmt::format("{}", fmt::join(ends, "; ")));
+// ---- What an answer makes of the claim -------------------------------------------------------------
+
+ClaimAnswer DecidedBy(std::string_view method, Json certificate, const std::string& otherwise) {
+  ClaimAnswer answer = ByCertificate(std::move(certificate), otherwise);
+  if (answer.state != ClaimState::kNotDecided) answer.method = method;
+  return answer;
 }
 
-ClaimAnswer DecideInSpace(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch) {
-  std::vector<std::string> ends;
+ClaimAnswer ByForces(const ExactProblem& problem, const Answer<Rational>& answer) {
+  if (!answer.Solved()) return DecidedBy(answer.method, nullptr, HowItEnded(answer));
+  if (!answer.bound) return DecidedBy(answer.method, SolutionCertificate(problem, answer.f), "");
+  if (*answer.bound != 0)
+    return DecidedBy(answer.method, CoulombCertificate(problem, answer.f, *answer.bound), "");
+  return DecidedBy(answer.method, nullptr,
+                   std::string(answer.method) + ": forces without a bound on the angle of slip");
+}
+
+ClaimAnswer ByModes(const ExactProblem& problem, const Enumeration& modes) {
+  Json certificate;
+  if (!modes.solutions.empty()) certificate = SolutionCertificate(problem, modes.solutions.front().f);
+  if (modes.ProvesNoSolution()) certificate = NoSolutionCertificate(problem, modes);
+  return DecidedBy("enumerate", std::move(certificate), HowItEnded(modes));
+}
+
+// ---- What is tried -----------------------------------------------------------------------------------
+
+Runs<ClaimAnswer> RunsInPlane(const ExactProblem& problem, const Request& request,
+                              const EnumerationWatch& watch) {
+  const auto by = [&](std::string_view method) {
+    return ByForces(problem, Solve(problem, {.method = method, .limits = request.limits}));
+  };
+  const auto first = [&, by] {
+    return problem.rows() < kCellsFirst ? ByForces(problem, RunCompleteFiltered(problem, request.limits))
+                                        : by("fast");
+  };
+  const auto enumerate = [&] {
+    return ByModes(problem, EnumerateModes(problem, request, [&watch](const Enumeration& so_far) {
+                     return UntilSolved(so_far) && (!watch || watch(so_far));
+                   }));
+  };
+  return {first, [by] { return by("lemke"); }, enumerate};  // complete driving is done
+}
+
+Runs<ClaimAnswer> RunsInSpace(const ExactProblem& problem, const Request& request,
+                              const EnumerationWatch& watch) {
+  Runs<ClaimAnswer> runs;
   for (const Method<Rational>& method : Methods<Rational>()) {
     if (!method.IsAutomatic(3) || method.name == "enumerate") continue;  // whose proof is wanted
-    try {
-      const Answer<Rational> answer = SolveBy(method, problem, {.law = request.law, .limits = request.limits});
-      if (answer.Solved() && answer.bound != Rational(0)) return DecidedBy(problem, answer);
-      ends.push_back(answer.Solved()
-                         ? std::string(method.name) + ": forces without a bound on the angle of slip"
-                         : HowItEnded(answer));
-    } catch (const RangeError& error) {  // Coulomb's law is solved over doubles before it is exactly
-      ends.push_back(std::string(method.name) + ": " + error.what());
-    }
+    runs.emplace_back([&] {
+      try {
+        return ByForces(problem, SolveBy(method, problem, {.law = request.law, .limits = request.limits}));
+      } catch (const RangeError& error) {  // Coulomb's law is solved over doubles before it is exactly
+        return DecidedBy(method.name, nullptr, std::string(method.name) + ": " + error.what());
+      }
+    });
   }
-  const Enumeration modes = RefuteInSpace(problem, request, watch);
-  if (modes.ProvesNoSolution()) return DecidedBy("enumerate", NoSolutionCertificate(problem, modes));
-  ends.push_back(HowItEnded(modes));
-  return Undecided(ends);
+  runs.emplace_back([&] { return ByModes(problem, RefuteInSpace(problem, request, watch)); });
+  return runs;
 }
 
 }  // namespace
 
 ClaimAnswer DecideExistence(const ExactProblem& problem, const Request& request,
                             const EnumerationWatch& watch) {
-  if (problem.dimension == 3) return DecideInSpace(problem, request, watch);
-  const Limits& limits = request.limits;
   std::vector<std::string> ends;
-  if (problem.rows() < kCellsFirst) {
-    const ExactAnswer answer = RunCompleteFiltered(problem, limits);
-    if (answer.Solved()) return DecidedBy(problem, answer);
-    ends.push_back(HowItEnded(answer));
-  } else {
-    const Answer<Rational> answer = Solve(problem, {.method = "fast", .limits = limits});
-    if (answer.Solved()) return DecidedBy(problem, answer);
-    ends.push_back(HowItEnded(answer));
-  }
-  const Answer<Rational> answer =
-      Solve(problem, {.method = "lemke", .limits = limits});  // complete driving is done
-  if (answer.Solved()) return DecidedBy(problem, answer);
-  ends.push_back(HowItEnded(answer));
-  const Enumeration modes = EnumerateModes(problem, request, [&watch](const Enumeration& so_far) {
-    return UntilSolved(so_far) && (!watch || watch(so_far));
-  });
-  if (!modes.solutions.empty())
-    return DecidedBy("enumerate", SolutionCertificate(problem, modes.solutions.front().f));
-  if (modes.ProvesNoSolution()) return DecidedBy("enumerate", NoSolutionCertificate(problem, modes));
-  ends.push_back(HowItEnded(modes));
-  return Undecided(ends);
+  const auto decides = [&ends](const ClaimAnswer& answer) {
+    ends.push_back(answer.reason);
+    return answer.state != ClaimState::kNotDecided;
+  };
+  ClaimAnswer answer = InTurn(
+      problem.dimension == 2 ? RunsInPlane(problem, request, watch) : RunsInSpace(problem, request, watch),
+      decides, [](const ClaimAnswer&, const ClaimAnswer&) { return false; });
+  if (answer.state == ClaimState::kNotDecided) answer.reason = fmt::format("{}", fmt::join(ends, "; "));
+  return answer;
 }
 
 }  // namespace stiction

@@ -16,6 +16,7 @@
 #include "certify/exact/verify_solution.h"
 #include "certify/exact/wide_ball.h"
 #include "solver/complete/complete.ipp"
+#include "solver/in_turn.h"
 #include "solver/lemke/lemke.ipp"
 #include "solver/problem/check.h"
 #include "solver/problem/remainder.h"
@@ -297,25 +298,30 @@ CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& prob
   const InexactAnswer run = Solve(*rounded, by_method);
   if (!run.Solved()) return {};
   const double bound = ResidualOf<double>(request);
-  const auto enclose = [&](const ModeWord& word) {
-    const auto solution = EncloseWord(*rounded, word);
-    return solution.Solved() ? TellEnclosed(*rounded, solution, bound, run) : std::nullopt;
+  const auto enclosed = [&](const std::optional<ModeWord>& word) -> CertifiedAnswer {
+    if (!word) return {};
+    const auto solution = EncloseWord(*rounded, *word);
+    auto told = solution.Solved() ? TellEnclosed(*rounded, solution, bound, run) : std::nullopt;
+    return told ? CertifiedAnswer(*std::move(told)) : CertifiedAnswer();
   };
-  if (const auto word = WordNamed(problem, run.word)) {
-    if (auto answer = enclose(*word)) return *std::move(answer);
-    ExactAnswer exact = SolveWord(problem, *word, std::vector<Rational>(problem.rows(), 0));
-    if (exact.Solved()) return TellExactly(run, std::move(exact), run.word);
-  }
+  const auto exactly = [&](ExactAnswer exact, const std::string& word) -> CertifiedAnswer {
+    return exact.Solved() ? CertifiedAnswer(TellExactly(run, std::move(exact), word)) : CertifiedAnswer();
+  };
+  const auto word = WordNamed(problem, run.word);
   const ScaledProblem scaled = MakeScaled(problem, *rounded);
   std::vector<double> point;
   for (const double x : run.f) point.push_back(x / ToDouble(scaled.force));
-  if (const auto nearest = WordsByRank(problem, scaled, point).Next()) {
-    if (auto answer = enclose(*nearest)) return *std::move(answer);
-  }
   std::set<ModeWord> tried;
-  ExactAnswer near = SolveNear(problem, scaled, point, kWords, tried);
-  if (near.Solved()) return TellExactly(run, std::move(near), "");
-  return {};
+  return InTurn<CertifiedAnswer>(
+      {[&] { return enclosed(word); },
+       [&] {
+         return word ? exactly(SolveWord(problem, *word, std::vector<Rational>(problem.rows(), 0)), run.word)
+                     : CertifiedAnswer();
+       },
+       [&] { return enclosed(WordsByRank(problem, scaled, point).Next()); },
+       [&] { return exactly(SolveNear(problem, scaled, point, kWords, tried), ""); }},
+      [](const CertifiedAnswer& answer) { return !std::holds_alternative<std::monostate>(answer); },
+      [](const CertifiedAnswer&, const CertifiedAnswer&) { return false; });
 }
 
 }  // namespace stiction

@@ -92,28 +92,31 @@ Answer<Rational> RunIpopt(const ExactProblem& problem, const Request&) {
 
 // A solution in the cells of forces over doubles: those of the fast method, whose limits are reached by many,
 // or of proximal points, whose limits are reached by few. None where doubles do not hold the problem.
-Answer<Rational> SolveNearDoubles(const ExactProblem& problem, const Limits& limits) {
+Answer<Rational> SolveNearDoubles(const ExactProblem& problem, const Limits& limits) try {
   constexpr int kWords = 16;
-  Answer<Rational> near;
   std::set<ModeWord> tried;
-  try {
-    const ContactProblem<double> rounded = Rounded<double>(problem);
-    const ScaledProblem scaled = MakeScaled(problem, rounded);
-    const auto look_near = [&](const Eigen::VectorXd& f) {
-      std::vector<double> point;
-      for (const double x : f) point.push_back(x / ToDouble(scaled.force));
-      Answer<Rational> found = SolveNear(problem, scaled, point, kWords, tried);
-      found.counters += near.counters;
-      near = std::move(found);
-    };
-    look_near(Solve(rounded, {.method = "fast", .limits = limits}).f);
-    if (near.Solved()) return near;
+  Counters counters;
+  const ContactProblem<double> rounded = Rounded<double>(problem);
+  const ScaledProblem scaled = MakeScaled(problem, rounded);
+  const auto near = [&](const Eigen::VectorXd& f) {
+    std::vector<double> point;
+    for (const double x : f) point.push_back(x / ToDouble(scaled.force));
+    Answer<Rational> found = SolveNear(problem, scaled, point, kWords, tried);
+    found.counters += counters;
+    counters = found.counters;
+    return found;
+  };
+  const auto near_fast = [&] { return near(Solve(rounded, {.method = "fast", .limits = limits}).f); };
+  const auto near_proximal = [&] {
     ProximalNewton<double> proximal({.limits = limits}, 1e-13);
     proximal.Run({rounded.dimension, rounded.contacts, rounded.A.sparseView(), rounded.b});
-    look_near(proximal.f());
-  } catch (const InputError&) {
-  }
-  return near;
+    return near(proximal.f());
+  };
+  Answer<Rational> answer = InTurn<Answer<Rational>>({near_fast, near_proximal});
+  answer.counters = counters;
+  return answer;
+} catch (const InputError&) {
+  return {};
 }
 
 // The published algorithm within a budget of steps: a solution, or nothing. It passes many ties sooner than
@@ -131,10 +134,13 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& requ
   Counters counters;
   const auto run_cells = [&] {
     Answer<Rational> near = SolveNearDoubles(problem, request.limits);
-    counters = {{Counter::kWords, near.counters[Counter::kWords]},
-                {Counter::kPublished, !near.Solved()},
-                {Counter::kFallbacks, 0}};
+    counters = {
+        {Counter::kWords, near.counters[Counter::kWords]}, {Counter::kPublished, 0}, {Counter::kFallbacks, 0}};
     return near;
+  };
+  const auto run_published = [&] {
+    ++counters[Counter::kPublished];
+    return RunPublishedBriefly(problem, request);
   };
   const auto run_complete = [&] {
     ++counters[Counter::kFallbacks];
@@ -142,8 +148,7 @@ Answer<Rational> RunFastExactly(const ExactProblem& problem, const Request& requ
     complete.method = "complete";
     return Solve(problem, complete);
   };
-  Answer<Rational> answer = InTurn(
-      request.limits, run_cells, [&] { return RunPublishedBriefly(problem, request); }, run_complete);
+  Answer<Rational> answer = InTurn<Answer<Rational>>({run_cells, run_published, run_complete});
   answer.counters = counters;
   return answer;
 }

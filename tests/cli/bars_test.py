@@ -39,6 +39,12 @@ auto InTurn() {
   return *Other(2);
 }
 bool Asks(const Row& row) { return row.method == "auto"; }  // not == kAutomatic
+Answer<double> Line() {
+  auto first = Best(1);
+  if (!first.Solved()) return first;
+  return Best(2);
+}
+Answer<double> Listed() { return InTurn<A>({Best(1), Best(2)}, [](auto& answer) { return answer.Solved(); }); }
 """
 JUDGES = """
 bool Holds(const ExactProblem& problem, const ExactVector& x) { return Law(FrictionLaw::kCoulomb, problem.A * x); }

@@ -15,7 +15,8 @@ bench measures, are not in it. Rules look at what sources do, so that a new name
   problem type    a type that has contacts and numbers, or A and b; or half of whose members are problems, two at least:
                   forms of one; not those of the C interfaces
   cascade         a source in which a method is compared with `auto`, or a function calls solving ones and goes on to
-                  another where an answer is not solved; certify/request is one, and solver/solve.ipp has its table
+                  another where an answer is not solved, unless it hands them to the one loop of solver/in_turn.h;
+                  certify/request is one, and solver/solve.ipp has its table
   options         of solving: types of solver, scene and certify with Options in their name, or with a member of the types
                   Limits or Tolerances
   judge           a source with a function of a problem and forces that says how wrong they are, by the law of friction,
@@ -185,13 +186,14 @@ def problem_types(codes):
 
 
 def cascades(codes):
-    answers = re.compile(r"\b\w*Answer(?:<[^;{}()]*>)?&?>?\s+(?:\w+(?:<[^;{}()]*>)?::)*(\w+)\s*\(")
+    answers = re.compile(r"\b(?!Claim)\w*Answer(?:<[^;{}()]*>)?&?>?\s+(?:\w+(?:<[^;{}()]*>)?::)*(\w+)\s*\(")
+    left = re.compile(r"if \(!\w+\.Solved\(\)\) (?:return|\{(?:[^{}]|\{[^{}]*\})*\breturn\b[^{}]*\})")  # at once
     solving = {name for code in codes.values() for name in answers.findall(code)}
     found = {}
     for source, at, _, name, _, inside in functions(codes):
         calls = [call for call in re.findall(r"(?<!\w)(\w+)\s*(?:<[^;(){}]*>)?\(", inside) if call in solving]
         named = re.search(r'[!=]= (?:kAutomatic|"")|kAutomatic [!=]=', inside)
-        in_turn = len(calls) > 1 and re.search(r"\bSolved\(\)", inside)
+        in_turn = len(calls) > 1 and re.search(r"\bSolved\(\)", left.sub("", inside)) and "InTurn" not in inside
         where = "certify/request" if source.startswith("certify/request/") else source
         if (named or in_turn) and not source.startswith("solver/solve."):
             found.setdefault(where, []).append(f"{at} {name}")
