@@ -9,7 +9,7 @@
 #define STICTION_BENCH_STRUCTURE_H_
 
 #include "search/generators/choices.h"
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 #include "solver/problem/problem.h"
 
 namespace stiction {

@@ -5,6 +5,7 @@
 #define STICTION_CORPUS_EXACT_NUMBER_H_
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 
 namespace stiction {
 

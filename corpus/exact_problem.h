@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "corpus/rational.h"
-#include "solver/problem/any_problem.h"
+#include "solver/problem/forms.h"
 
 namespace stiction {
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 
 // Instantiated once, in json_text.cpp.
 extern template class nlohmann::basic_json<nlohmann::ordered_map>;

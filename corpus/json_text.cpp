@@ -10,6 +10,7 @@
 
 #include "corpus/input_file.h"
 #include "corpus/json.h"
+#include "corpus/rational.h"
 #include "solver/problem/check.h"
 
 template class nlohmann::basic_json<nlohmann::ordered_map>;
@@ -212,11 +213,6 @@ std::string Shortened(const std::string& text, std::size_t most) {
 }
 
 std::string Shown(const Json& value) { return Shortened(JsonText(value)); }
-
-bool IsExactDouble(const Rational& x) {
-  const double nearest = ToDouble(x);
-  return std::isfinite(nearest) && Rational(nearest) == x;
-}
 
 std::string MemberPath(const std::string& path, const std::string& key) {
   if (!IsWord(key)) return path + "[" + Shown(key) + "]";

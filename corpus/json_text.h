@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "corpus/input_error.h"
-#include "corpus/rational.h"
 
 namespace stiction {
 
@@ -50,8 +49,6 @@ void RequireWritable(const Json& value);
 std::string Shown(const Json& value);
 // `text` cut to `most` bytes, never inside a UTF-8 character.
 std::string Shortened(const std::string& text, std::size_t most = 60);
-
-bool IsExactDouble(const Rational& x);
 
 // Paths as errors write them: `contacts[0].mu`, `expect["ties=contacts"]`. The empty path is the document.
 std::string MemberPath(const std::string& path, const std::string& key);

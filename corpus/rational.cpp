@@ -172,4 +172,9 @@ Rational SquareRoot<Rational>::Of(const Rational& x) {
   return Parts::Quotient(Integer(sqrt(scaled)), Integer(Integer(1) << places));
 }
 
+bool IsExactDouble(const Rational& x) {
+  const double nearest = ToDouble(x);
+  return std::isfinite(nearest) && Rational(nearest) == x;
+}
+
 }  // namespace stiction

@@ -28,6 +28,7 @@ std::string ToString(const Rational& x);
 
 // The double nearest to x (to even on ties); infinite beyond the range of doubles.
 double ToDouble(const Rational& x);
+bool IsExactDouble(const Rational& x);
 
 // Bits of the longer of numerator and denominator.
 std::int64_t Bits(const Rational& x);

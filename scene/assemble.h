@@ -39,7 +39,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "scene/rows.h"
+#include "scene/contacts.h"
+#include "scene/mechanics.h"
 
 namespace stiction {
 

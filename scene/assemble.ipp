@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/assemble.h"
+#include "scene/rows.h"
 #include "scene/mechanics.ipp"
 
 namespace stiction {

@@ -17,7 +17,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 
 namespace stiction {
 
@@ -54,6 +54,11 @@ struct Constraint {
   int source = 0;  // number of the joint or of the contact
   int part = 0;    // which row of the joint
 };
+
+template <class Kind, class Scalar>
+using RowIn = ConstraintRow<Scalar, Kind::kDof>;
+template <class Kind, class Scalar>
+using ConstraintIn = Constraint<Scalar, Kind::kDof>;
 
 template <class Scalar, int Dof>
 Scalar Velocity(const Constraint<Scalar, Dof>& constraint, int row,

@@ -25,11 +25,6 @@
 namespace stiction {
 
 template <class Kind, class Scalar>
-using RowIn = ConstraintRow<Scalar, Kind::kDof>;
-template <class Kind, class Scalar>
-using ConstraintIn = Constraint<Scalar, Kind::kDof>;
-
-template <class Kind, class Scalar>
 std::vector<BodyDynamics<Scalar, Kind::kDof>> DynamicsOf(const SceneIn<Kind, Scalar>& scene);
 
 // The rows of each joint, in order: J, bias and error; b is not set.

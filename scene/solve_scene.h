@@ -32,7 +32,7 @@
 #include <memory>
 
 #include "solver/problem/answer.h"
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 
 namespace stiction {
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "solver/problem/any_problem.h"
+#include "solver/problem/forms.h"
 
 namespace stiction::testing {
 

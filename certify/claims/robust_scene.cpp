@@ -9,6 +9,7 @@
 #include "certify/exact/same_run.h"
 #include "certify/exact/slope.h"
 #include "scene/mechanics.ipp"
+#include "scene/rows.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -23,7 +23,7 @@
 
 #include "certify/exact/properties.h"
 #include "solver/problem/errors.h"
-#include "solver/problem/law.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 

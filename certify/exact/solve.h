@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "corpus/exact_problem.h"
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 #include "solver/solve.h"
 
 namespace stiction {

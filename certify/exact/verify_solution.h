@@ -22,7 +22,7 @@
 #include <string>
 
 #include "corpus/exact_problem.h"
-#include "solver/problem/law.h"
+#include "solver/problem/options.h"
 
 namespace stiction {
 

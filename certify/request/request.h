@@ -19,7 +19,7 @@ namespace stiction {
 // Of `request`, method, arithmetic, policy and law are set by their names here.
 struct Wanted {
   std::string method{kAutomatic};
-  std::string arithmetic;  // empty: the usual one
+  std::string arithmetic = "";  // empty: the usual one
   std::string policy = "paper";
   std::string law = "";  // the paper's of method baraff and of runs that are followed, otherwise Coulomb's
   Request request = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems in factors, over exact numbers: A = J inv(M) J' and b = J w + c (solver/problem/factored.h), the key
+// Problems in factors, over exact numbers: A = J inv(M) J' and b = J w + c (solver/problem/forms.h), the key
 // `factors` of a problem file:
 //
 //   J   {"size": [rows, velocities], "entries": [[row, velocity, number], ...]}, or rows of numbers

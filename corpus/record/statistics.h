@@ -14,7 +14,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
 #include "solver/problem/solution.h"
 

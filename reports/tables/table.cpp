@@ -160,7 +160,7 @@ void AddDescribed(Table& table, const std::vector<std::string>& line) {
 std::map<std::string, Table> ReadDescriptions() {
   std::map<std::string, Table> tables;
   Table* last = nullptr;
-  for (const std::string& line : LinesOf({std::begin(kTablesTxt), std::end(kTablesTxt)})) {
+  for (const std::string& line : LogicalLines({std::begin(kTablesTxt), std::end(kTablesTxt)})) {
     const std::vector<std::string> parts = Split(line, " | ");
     if (!line.starts_with("# ")) {
       AddDescribed(*last, parts);
@@ -187,7 +187,7 @@ std::vector<std::string> Split(std::string text, const std::string& at) {
   return parts;
 }
 
-std::vector<std::string> LinesOf(const std::string& text) {
+std::vector<std::string> LogicalLines(const std::string& text) {
   std::vector<std::string> lines;
   for (const std::string& line : Split(text, "\n")) {
     if (line.starts_with("  ")) {

@@ -100,7 +100,7 @@ std::vector<Column> Columns(const std::string& names);
 
 std::vector<std::string> Split(std::string text, const std::string& at);
 // Lines of a text without empty ones and remarks (corpus/text_template.h); those behind two blanks go on above.
-std::vector<std::string> LinesOf(const std::string& text);
+std::vector<std::string> LogicalLines(const std::string& text);
 
 // A table that tables.txt describes, without rows.
 Table Described(const std::string& name);

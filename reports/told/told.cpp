@@ -64,7 +64,7 @@ std::vector<std::string> LinesThatHold(std::span<const unsigned char> text, cons
     if (!said.empty()) blanks.words.insert(name);
   for (const auto& [name, list] : facts.lists)
     if (!list.empty()) blanks.words.insert(name);
-  return LinesOf(Filled(text, blanks));
+  return LogicalLines(Filled(text, blanks));
 }
 
 Part PartOf(const std::string& mark, const std::vector<std::string>& said, const Facts& facts) {

@@ -19,7 +19,7 @@
 
 #include "solver/numeric/body_newton.h"
 #include "solver/numeric/dense_factors.h"
-#include "solver/problem/any_problem.h"
+#include "solver/problem/forms.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/lenient.h"
 #include "solver/solve.h"

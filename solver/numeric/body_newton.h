@@ -30,7 +30,7 @@
 
 #include "solver/linear/sparse_lu.h"
 #include "solver/problem/errors.h"
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 #include "solver/problem/options.h"
 
 namespace stiction {

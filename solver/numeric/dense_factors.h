@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "solver/problem/factored.h"
+#include "solver/problem/forms.h"
 
 namespace stiction {
 

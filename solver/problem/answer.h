@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "solver/problem/counters.h"
-#include "solver/problem/law.h"
+#include "solver/problem/options.h"
 #include "solver/problem/problem.h"
 #include "solver/problem/solution.h"
 

@@ -13,9 +13,14 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/problem/law.h"
-
 namespace stiction {
+
+// Friction in space. kBaraff: (21), (22), which leave the direction of slip free. kCoulomb: friction opposite
+// to the acceleration, which implies them. In the plane they are the same.
+enum class FrictionLaw : std::uint8_t { kBaraff, kCoulomb };
+inline constexpr std::string_view Name(FrictionLaw law) {
+  return law == FrictionLaw::kBaraff ? "baraff" : "coulomb";
+}
 
 // ---- Policy: one reading of the published algorithm (readings.md) ----------------------------
 

@@ -11,8 +11,8 @@
 //
 // Rows is a compile-time row count for planar problems of static contacts only (two rows each),
 // which keeps everything on the stack, or Eigen::Dynamic for any problem. MatrixType is how A is held: by
-// default dense; SparseContactProblem has its nonzero entries; FactoredProblem (factored.h) its factors.
-// Problem (any_problem.h) is one of these three, as it was read or made.
+// default dense; SparseContactProblem has its nonzero entries; FactoredProblem (forms.h) its factors. Problem
+// (forms.h) is one of these three, as it was read or made.
 
 #ifndef STICTION_SOLVER_PROBLEM_PROBLEM_H_
 #define STICTION_SOLVER_PROBLEM_PROBLEM_H_
@@ -149,6 +149,29 @@ class RowLayout<Eigen::Dynamic> {
   std::vector<int> normal_row_;  // by contact
 };
 
+// visit(i, j, A_ij) for all entries, or for those that a sparse A has.
+template <class Matrix, class Visit>
+void ForEachEntry(const Eigen::MatrixBase<Matrix>& A, Visit visit) {
+  for (int j = 0; j < A.cols(); ++j)
+    for (int i = 0; i < A.rows(); ++i) visit(i, j, A(i, j));
+}
+template <class Scalar, class Visit>
+void ForEachEntry(const Eigen::SparseMatrix<Scalar>& A, Visit visit) {
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry)
+      visit(static_cast<int>(entry.row()), j, entry.value());
+}
+
+// visit(i, A_ij) for the entries of column j.
+template <class Matrix, class Visit>
+void ForEachInColumn(const Eigen::MatrixBase<Matrix>& A, int column, Visit visit) {
+  for (int i = 0; i < A.rows(); ++i) visit(i, A(i, column));
+}
+template <class Scalar, class Visit>
+void ForEachInColumn(const Eigen::SparseMatrix<Scalar>& A, int column, Visit visit) {
+  for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(A, column); entry; ++entry)
+    visit(static_cast<int>(entry.row()), entry.value());
+}
 }  // namespace stiction
 
 #endif  // STICTION_SOLVER_PROBLEM_PROBLEM_H_

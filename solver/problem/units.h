@@ -31,19 +31,6 @@
 
 namespace stiction {
 
-// visit(i, j, A_ij) for all entries, or for those that a sparse A has.
-template <class Matrix, class Visit>
-void ForEachEntry(const Eigen::MatrixBase<Matrix>& A, Visit visit) {
-  for (int j = 0; j < A.cols(); ++j)
-    for (int i = 0; i < A.rows(); ++i) visit(i, j, A(i, j));
-}
-template <class Scalar, class Visit>
-void ForEachEntry(const Eigen::SparseMatrix<Scalar>& A, Visit visit) {
-  for (int j = 0; j < A.outerSize(); ++j)
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry)
-      visit(static_cast<int>(entry.row()), j, entry.value());
-}
-
 // Groups of contacts that A couples, directly or through others.
 class Groups {
  public:
@@ -93,16 +80,6 @@ class Groups {
   int groups_ = 0;
 };
 
-// visit(i, A_ij) for the entries of column j.
-template <class Matrix, class Visit>
-void ForEachInColumn(const Eigen::MatrixBase<Matrix>& A, int column, Visit visit) {
-  for (int i = 0; i < A.rows(); ++i) visit(i, A(i, column));
-}
-template <class Scalar, class Visit>
-void ForEachInColumn(const Eigen::SparseMatrix<Scalar>& A, int column, Visit visit) {
-  for (typename Eigen::SparseMatrix<Scalar>::InnerIterator entry(A, column); entry; ++entry)
-    visit(static_cast<int>(entry.row()), entry.value());
-}
 // Rows of a contact.
 template <class Scalar>
 int RowsOf(const Contact<Scalar>& contact, int dimension) {

@@ -243,8 +243,8 @@ TEST_CASE("rays in space: proved where nothing limits a step, a fault where alte
   large.A(5, 0) = Rational(mpz_class(1) << 1000);
   CHECK(FindRayFault(large, literal, *ray)->expected == "more: numbers of A, b and mu are below 2^(bits / 4)");
   const RunInSpace ended = {.bits = 384};
-  CHECK(FindRayFault(OfRay(), redirect, *ray)->place == "word[3]");
-  CHECK(FindRayFault(OfStates(), literal, ended)->place == "word");
+  CHECK(FindRayFault(OfRay(), redirect, *ray)->path == "word[3]");
+  CHECK(FindRayFault(OfStates(), literal, ended)->path == "word");
 }
 
 }  // namespace

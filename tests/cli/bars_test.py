@@ -50,7 +50,7 @@ JUDGES = """
 bool Holds(const ExactProblem& problem, const ExactVector& x) { return Law(FrictionLaw::kCoulomb, problem.A * x); }
 double Wraps(const ExactProblem& problem, const ExactVector& f, FrictionLaw law) { return Far(problem, f, a); }
 """
-FAR = "double Far(const Problem& problem, const Vector& f, const Vector& a) { return mu * f[0] - a[0]; }"
+FAR = "[[nodiscard]] double Far(const Problem& problem, const Vector& f, const Vector& a) { return mu * f[0] - a[0]; }"
 
 
 def names(places):

@@ -105,7 +105,8 @@ def depth(name, own, known):
 
 TYPE = re.compile(r"^\s*(?:template <[^;{]*>\s*)?(?:struct|class|enum|enum class|union) (?!class)\w+[^;(]*\{", re.M)
 STRUCT = re.compile(r"\b(?:struct|class)\s+(\w+)\s*(?:final\s*)?(?:<[^;{]*>\s*)?(?::[^;{}]*)?\{")
-FUNCTION = re.compile(r"(?:^|\n)[ ]{0,2}((?:[\w:]+(?:<[^;{}()]*>)?[&*]?\s+)*)([\w:~]+)"  # what it returns, name
+FUNCTION = re.compile(r"(?:^|\n)[ ]{0,2}(?:\[\[[\w:]+\]\] )?"  # an attribute
+                      r"((?:[\w:]+(?:<[^;{}()]*>)?[&*]?\s+)*)([\w:~]+)"  # what it returns, name
                       r"\(([^;{}]*?)\)\s*(?:const|override|\s)*\{")
 
 

@@ -7,9 +7,18 @@
 //
 // Whoever needs another form asks for it: dense() and entries() are made when they are first asked for, once,
 // by any thread, and kept. Copies share them. Scalar is an exact type: what is formed is the same problem.
+//
+// FactoredProblem: a = A f + b with A = J W J' and b = J w + c, where A is not formed.
+//
+//   J   rows x velocities, 1 or m: what the contacts make of the bodies' velocities; sparse
+//   M   velocities x velocities, kg or kg m^2: the masses; symmetric, positive definite, in blocks of a body
+//   each W   the inverse of M w   velocities x 1, m/s^2 or 1/s^2: accelerations of the bodies without contact
+//   forces c   rows x 1, m/s^2: accelerations of the contacts where the bodies have none
+//
+// A is symmetric and positive semidefinite, whatever J is; with c = 0 or in the range of J, b is in range(A).
 
-#ifndef STICTION_SOLVER_PROBLEM_ANY_PROBLEM_H_
-#define STICTION_SOLVER_PROBLEM_ANY_PROBLEM_H_
+#ifndef STICTION_SOLVER_PROBLEM_FORMS_H_
+#define STICTION_SOLVER_PROBLEM_FORMS_H_
 
 #include <memory>
 #include <mutex>
@@ -18,11 +27,97 @@
 #include <variant>
 #include <vector>
 
-#include "solver/problem/factored.h"
 #include "solver/problem/problem.h"
-#include "solver/problem/units.h"
+#include "solver/problem/scalar.h"
 
 namespace stiction {
+
+// ---- Factors ---------------------------------------------------------------------------------------
+
+// J W J', entry by entry where they are asked for.
+template <class Scalar>
+class FactoredMatrix {
+ public:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Rows = Eigen::SparseMatrix<Scalar, Eigen::RowMajor>;
+
+  FactoredMatrix() = default;
+  FactoredMatrix(Rows J, Matrix W) : J_(std::move(J)), W_(std::move(W)), JW_(J_ * W_), columns_(J_) {}
+  // Where blocks of W are too long to be formed over exact numbers, and J W is not: W is zero there.
+  FactoredMatrix(Rows J, Matrix W, const Rows& JW_of_others)
+      : J_(std::move(J)), W_(std::move(W)), JW_(Rows(J_ * W_) + JW_of_others), columns_(J_) {}
+
+  const Rows& J() const { return J_; }
+  const Matrix& W() const { return W_; }
+  const Rows& JW() const { return JW_; }
+
+  Scalar coeff(int i, int j) const { return JW_.row(i).dot(J_.row(j)); }
+
+  // visit(i, j, A_ij) for the entries that a shared velocity makes, row by row.
+  template <class Visit>
+  void ForEach(Visit visit) const {
+    std::vector<Scalar> row(J_.rows(), Scalar(0));
+    std::vector<int> touched, last(J_.rows(), -1);
+    for (int i = 0; i < J_.rows(); ++i) {
+      touched.clear();
+      for (typename Rows::InnerIterator of(JW_, i); of; ++of) {
+        for (typename Matrix::InnerIterator other(columns_, of.col()); other; ++other) {
+          const int j = static_cast<int>(other.row());
+          if (last[j] != i) {
+            last[j] = i;
+            row[j] = Scalar(0);
+            touched.push_back(j);
+          }
+          row[j] += of.value() * other.value();
+        }
+      }
+      for (const int j : touched) visit(i, j, row[j]);
+    }
+  }
+
+  // visit(i, A_ij) for the rows that share a velocity with row j.
+  template <class Visit>
+  void ForEachInColumn(int j, Visit visit) const {
+    const Eigen::SparseVector<Scalar> column = J_ * Eigen::SparseVector<Scalar>(JW_.row(j).transpose());
+    for (typename Eigen::SparseVector<Scalar>::InnerIterator entry(column); entry; ++entry)
+      visit(static_cast<int>(entry.index()), entry.value());
+  }
+
+ private:
+  Rows J_;
+  Matrix W_;
+  Rows JW_;
+  Matrix columns_;  // J
+};
+
+template <class Scalar, class Visit>
+void ForEachEntry(const FactoredMatrix<Scalar>& A, Visit visit) {
+  A.ForEach(visit);
+}
+
+template <class Scalar, class Visit>
+void ForEachInColumn(const FactoredMatrix<Scalar>& A, int column, Visit visit) {
+  A.ForEachInColumn(column, visit);
+}
+
+template <class Scalar>
+struct FactoredProblem : ContactProblem<Scalar, Eigen::Dynamic, FactoredMatrix<Scalar>> {
+  using Matrix = FactoredMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  typename Matrix::Matrix M;
+  Vector w, c;  // b = J w + c
+
+  // W J' f, what the forces change of the bodies' accelerations.
+  Vector Responses(const Vector& f) const {
+    if constexpr (kIsExact<Scalar>) return this->A.JW().transpose() * f;  // W may not be whole
+    return this->A.W() * (this->A.J().transpose() * f);
+  }
+  // a = A f + b, of the contacts.
+  Vector Accelerations(const Vector& f) const { return this->A.J() * Responses(f) + this->b; }
+};
+
+// ---- Any form ----------------------------------------------------------------------------------------
 
 // The same problem with all of A: rows x rows numbers, which memory may not hold.
 template <class Scalar, class Matrix>
@@ -110,4 +205,4 @@ class Problem {
 
 }  // namespace stiction
 
-#endif  // STICTION_SOLVER_PROBLEM_ANY_PROBLEM_H_
+#endif  // STICTION_SOLVER_PROBLEM_FORMS_H_
