@@ -12,7 +12,7 @@
 namespace stiction {
 namespace {
 
-using Problem = ContactProblem<double>;
+using Dense = ContactProblem<double>;
 
 constexpr int kUnit = 32;  // lengths below are in 1/32 m
 
@@ -129,17 +129,17 @@ auto FromModel(const Building& building, const Json& json, Take take) {
   return building.dimension == 2 ? FromModel<Plane>(json, take) : FromModel<Space>(json, take);
 }
 
-Problem ProblemOf(const Building& building, const Json& json) {
+Dense ProblemOf(const Building& building, const Json& json) {
   return FromModel(building, json, [](const auto& model) { return model.Problem(0); });
 }
 
 }  // namespace
 
-Problem StackProblem(int boxes, const Building& building, Choices& choices) {
+Dense StackProblem(int boxes, const Building& building, Choices& choices) {
   return ProblemOf(building, StackJson(boxes, building, choices));
 }
 
-Problem WallProblem(int courses, int bricks, const Building& building, Choices& choices) {
+Dense WallProblem(int courses, int bricks, const Building& building, Choices& choices) {
   return ProblemOf(building, WallJson(courses, bricks, building, choices));
 }
 
@@ -148,7 +148,7 @@ FactoredProblem<double> WallInFactors(int courses, int bricks, const Building& b
                    [](const auto& model) { return model.InFactors(0); });
 }
 
-Problem ChannelProblem(int discs, const Building& building, Choices& choices) {
+Dense ChannelProblem(int discs, const Building& building, Choices& choices) {
   return ProblemOf(building, ChannelJson(discs, building, choices));
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "scene/assemble.h"
-#include "scene/rows.h"
 #include "scene/mechanics.ipp"
+#include "scene/rows.h"
 
 namespace stiction {
 

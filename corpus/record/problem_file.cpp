@@ -315,11 +315,11 @@ void RequireLength(const JsonPlace& place, int rows, const std::string& items) {
 }
 
 // A dense matrix of more rows is refused before it is made.
-void RequireMemory(const JsonPlace& place, int rows) {
-  if (rows <= kMostDenseRows) return;
+void RequireMemory(const JsonPlace& place, int rows, int most = kMostDenseRows) {
+  if (rows <= most) return;
   constexpr double kEntry = 64, kGiB = 1 << 30;  // bytes
   place.Refuse(fmt::format("{} rows, {:.3g} GiB as a dense matrix", rows, kEntry / kGiB * rows * rows),
-               fmt::format("at most {} rows", kMostDenseRows) +
+               fmt::format("at most {} rows", most) +
                    R"(; stiction solve and survey take more, written as {"size", "entries"} or as factors)");
 }
 
@@ -355,8 +355,9 @@ Vector ProblemReader::Numbers(const JsonPlace& place, int rows) const {
 }
 
 // What is asked for as dense.
-void RequireMemory(const AnyProblem& problem, const JsonPlace& place) {
-  RequireMemory(place.Child(problem.factors() != nullptr ? "factors" : "A", place.json()), problem.rows());
+void RequireMemory(const AnyProblem& problem, const JsonPlace& place, int most = kMostDenseRows) {
+  RequireMemory(place.Child(problem.factors() != nullptr ? "factors" : "A", place.json()), problem.rows(),
+                most);
 }
 
 // One spelling per policy, so that two spellings of one are noticed.
@@ -595,7 +596,7 @@ ProblemFile ParseProblem(std::string_view text, const std::string& source, int m
     if (const auto expect = place.Optional("expect")) file.expect = ReadExpect(*expect);
   });
   faults.Throw();
-  if (file.problem.rows() > most_rows) RequireMemory(file.problem, place);
+  RequireMemory(file.problem, place, most_rows);
   return file;
 }
 
@@ -630,8 +631,9 @@ Json ProblemToJson(const ExactProblem& problem) {
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 Json ToJson(const ProblemFile& file) {
+  const Json problem = AnyProblemToJson(file.problem);
   Json json;
-  for (const auto& member : AnyProblemToJson(file.problem).items()) {
+  for (const auto& member : problem.items()) {
     if (member.key() == "dimension") json["name"] = file.name;
     json[member.key()] = member.value();
   }

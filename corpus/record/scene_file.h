@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 #include "scene/scene.h"
 
 namespace stiction {

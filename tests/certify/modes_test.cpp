@@ -368,7 +368,9 @@ TEST_CASE("modes: the first solution only, a spent budget, a cancelled search") 
   CHECK(EnumerateModes(problem, {}, watch).end == EnumerationEnd::kComplete);
   CHECK(decided == Approx(1));
   const std::atomic<bool> stop = true;
-  CHECK(EnumerateModes(problem, {.limits = {.stop = &stop}}).prefixes == 1);
+  const Enumeration stopped = EnumerateModes(problem, {.limits = {.stop = &stop}});
+  CHECK(stopped.end == EnumerationEnd::kStopped);
+  CHECK(stopped.prefixes < EnumerateModes(problem).prefixes);
   const Enumeration cancelled =
       EnumerateModes(problem, {}, [](const Enumeration& so_far) { return so_far.solutions.size() < 2; });
   CHECK(cancelled.end == EnumerationEnd::kStopped);

@@ -556,7 +556,8 @@ TEST_CASE("problem file: friction without a bound is a frictionless row, and bil
   using enum ContactKind;
   const auto kinds = [](const std::string& text) {
     std::vector<ContactKind> result;
-    for (const Contact<Rational>& contact : ParseProblem(text, "p.json").problem.contacts()) {
+    const ProblemFile file = ParseProblem(text, "p.json");
+    for (const Contact<Rational>& contact : file.problem.contacts()) {
       CHECK(contact.mu == (contact.kind == kStatic ? 1 : 0));
       result.push_back(contact.kind);
     }

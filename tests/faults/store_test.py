@@ -194,6 +194,9 @@ int fcntl(int file, int command, ...) __attribute__((alias("fcntl64")));
         live = self.folder / "live.store"
         search = self.start(live)
         search.send_signal(signal.SIGSTOP)
+        while not all(stat.read_text().rpartition(")")[2].split()[0] == "T"
+                      for stat in Path(f"/proc/{search.pid}/task").glob("*/stat")):  # it writes until all threads stand
+            time.sleep(0.01)
         store = folder / "s.store"
         for end in ("", "-wal"):
             shutil.copy(f"{live}{end}", f"{store}{end}")

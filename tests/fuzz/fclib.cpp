@@ -18,6 +18,7 @@
 #include <map>
 
 #include "corpus/json.h"
+#include "corpus/record/asymmetry.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/same.h"
 #include "tests/fuzz/targets.h"

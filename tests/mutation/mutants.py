@@ -98,7 +98,7 @@ bug("RequireCycle", "claim-cycle-length",
 bug("RequireCycle", "claim-cycle-start",
     'RequireSame(ReadInteger(stated["start"], path + ".start", 0), run.verdict.start, path + ".start");', "",
     "cycle: any start")
-bug("CompareState", "claim-cycle-state", 'RequireEqual(f[i], run.state.f[i], ElementPath(path + ".f", i));', "",
+bug("CompareState", "claim-cycle-state", 'RequireEqual(f[i], run.f[i], ElementPath(path + ".f", i));', "",
     "cycle: any forces recur")
 bug("CheckRuns", "claim-cycle-policy-twice", 'throw Rejected{where, Shown(named[p]), "each policy once"};', "",
     "cycle: a policy counts twice")

@@ -13,6 +13,7 @@
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
+#include "scene/rows.h"
 #include "solver/problem/reduction.h"
 #include "tests/factored.h"
 #include "tests/methods.h"

@@ -14,6 +14,7 @@
 #include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/polyhedron.h"
+#include "scene/rows.h"
 #include "tests/factored.h"
 
 namespace stiction {

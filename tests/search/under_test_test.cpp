@@ -244,7 +244,7 @@ TEST_CASE("under test: what waits is asked once more before it is said to hang")
 TEST_CASE("under test: a call that the search stops ends at once, and is no answer, no crash and no hang") {
   const testing::Scratch folder;
   bool stopped = false;
-  SolverProcess process({Sleeper(folder, true).string()}, {.stopped = [&stopped] { return stopped; }});
+  SolverProcess process({Sleeper(folder, true).string()}, [&stopped] { return stopped; });
   stopped = true;
   CHECK(process.Solve(Idle(), 1e6).end == SolverEnd::kStopped);
   CHECK(process.Solve(Idle(), 1e6).end == SolverEnd::kStopped);  // nor is it started anew
