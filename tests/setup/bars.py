@@ -41,6 +41,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FIRST = "ab35161f"  # with 93,719 lines of product, 817 types
 PRODUCT = ("bench", "certify", "cli", "corpus", "python", "reports", "scene", "search", "solver")
 CODE = (".h", ".ipp", ".cpp", ".py", ".pyi", ".js", ".mjs")
+TEXT = (".txt", ".in", "words.json")  # with places that code fills in, or read as tables
 RECIPES = {"method": 4, "generator": 3, "claim": 4, "verb": 3, "field": 2}  # files that its commit touches, at most
 JSON_HEADERS = ("nlohmann/json.hpp",)
 GENERATED = re.compile(r"reports/(examples|web/dist|web/solver)/|.*\.(svg|png|pdf|wasm)(\.gz)?$")
@@ -65,6 +66,13 @@ def files():
     """Of the product, as Git has them; what vendor/ has is the code of others."""
     for name in git("ls-files", *PRODUCT).splitlines():
         if name.endswith(CODE) and not name.startswith("bench/peers/") and "/vendor/" not in name:
+            yield name
+
+
+def texts():
+    """Of the product: sentences, tables and templates beside the code; no list of CMake, licence or web asset."""
+    for name in git("ls-files", *PRODUCT).splitlines():
+        if name.endswith(TEXT) and not name.endswith(("CMakeLists.txt", "LICENSES.txt")) and "/web/" not in name:
             yield name
 
 
@@ -317,6 +325,7 @@ def measures(build, share):
     def counted(what, places, most):
         return what, len(places), most, places
     yield "lines of the product, peers apart", sum(len(text(name).splitlines()) for name in names), 87_700, []
+    yield "lines of texts with places, beside them", sum(len(text(name).splitlines()) for name in texts()), 1_800, []
     yield "types", sum(len(TYPE.findall(text(name))) for name in cpp), 710, []
     yield counted("problem types", problem_types(codes), 3)
     yield counted("cascades", cascades(codes), 1)
