@@ -126,7 +126,7 @@ struct Turn {
 
 constexpr Turn kCascade[] = {
     {kDouble, 0, &HasFactors, kNewtonBodies, kDouble, &RunBodies},
-    {kDouble, 0, &StaysSparse, "entries", kDouble, &RunEntries, true},
+    {kDouble, 0, &StaysSparse, "entries", kDouble, &RunEntries, true},  // no method: the one that takes entries
     {kDouble, 3, &Always, "fast", kDouble, &RunWithoutPolygons},
     {kDouble, 2, &Always, kAutomatic, kDouble},
     {kDouble, 2, &IsSingular, "proximal", kDouble},
