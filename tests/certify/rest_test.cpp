@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rest: where accelerations are not unique, the solution that has none.
 
-#include "certify/request/rest.h"
+#include "certify/exact/rest.h"
 
 #include <catch2/catch.hpp>
 
