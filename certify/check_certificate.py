@@ -195,6 +195,14 @@ def in_dual_cone(problem, g, place):
         need(gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents), at, gN, "gN >= mu abs(gF)")
 
 
+def in_cone(problem, v, name):
+    """The friction cones themselves."""
+    for kind, mu, normal, tangents in cones(problem):
+        place, vN = f"$.witness.{name}[{normal}]", v[normal]
+        need(kind == "bilateral" or vN >= 0, place, vN, f"{name}N >= 0")
+        need(sum(v[k] ** 2 for k in tangents) <= mu ** 2 * vN ** 2, place, vN, f"abs({name}F) <= mu {name}N")
+
+
 def check_psd(problem, witness):
     if "factors" in witness:
         factors(problem, witness)
@@ -280,10 +288,7 @@ def check_not_h(problem, witness):
     value = stated(witness, dot(v, problem.b), "b'v")
     need(value < 0, "$.witness.value", value, "a value < 0")
     equal(long_times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")
-    for kind, mu, normal, tangents in cones(problem):
-        place, vN = f"$.witness.v[{normal}]", v[normal]
-        need(kind == "bilateral" or vN >= 0, place, vN, "vN >= 0")
-        need(sum(v[k] ** 2 for k in tangents) <= mu ** 2 * vN ** 2, place, vN, "abs(vF) <= mu vN")
+    in_cone(problem, v, "v")
     return f"{len(v)} rows"
 
 
@@ -337,6 +342,23 @@ def check_coulomb(problem, witness):
     bound = exact(witness["bound"], "$.witness.bound")
     need(0 < bound <= 1, "$.witness.bound", bound, "a bound > 0 and <= 1")
     return f"{check_forces(problem, *forces(problem, witness), coulomb(bound))}, bound {brief(bound)}"
+
+
+def check_rests(problem, witness):
+    """f in the friction cones with A f + b = 0."""
+    f = factor_of_products(problem, witness, "f")
+    equal([x + z for x, z in zip(long_times(problem.A, f), problem.b)], [0] * len(f), "$.witness (A f + b)", "A f + b = 0")
+    in_cone(problem, f, "f")
+    return f"{len(f)} rows"
+
+
+def check_cannot_rest(problem, witness):
+    """A'y in the dual of the friction cones and b'y > 0: of f in the cones with A f = -b it were 0 <= y'A f = -b'y."""
+    y = factor_of_products(problem, witness, "y", squared=True)
+    value = stated(witness, dot(y, problem.b), "b'y")
+    need(value > 0, "$.witness.value", value, "a value > 0")
+    in_dual_cone(problem, long_times(zip(*problem.A), y), "$.witness (A'y)")
+    return f"{len(y)} rows"
 
 
 # --- Contact modes (certify/certificates.md, Modes) ----------------------------------------
@@ -688,6 +710,8 @@ CLAIMS = {  # the keys of the witness, and what checks it
     "solution-exists": ("f a", check_solution),
     "coulomb-solution": ("f a bound", check_coulomb),
     "coulomb-exact": ("modes fixed x inverse radius", check_coulomb_exact),
+    "rests": ("f", check_rests),
+    "cannot-rest": ("y value", check_cannot_rest),
     "no-solution": ("prefixes", check_no_solution),
     "symmetric": ("", check_symmetric),
     "not-symmetric": ("i j", check_not_symmetric),

@@ -53,6 +53,7 @@ TABLE = {
     "coulomb-solution": ((REST, "coulomb-solution"), (NONE_IN_SPACE, "no-solution"),
                          (OPEN_IN_SPACE, [], "enumerate: a contact mode that nothing refutes")),
     "coulomb-exact": ((SLIDE, "coulomb-exact"), (NONE_IN_SPACE, "no-solution"), (OPEN_IN_SPACE, [], "")),
+    "rests": ((REST, "rests"), (NONE_IN_SPACE, "cannot-rest"), (zero(2, 31, "0"), [], "it has 62 rows, and programs take 60")),
     "symmetric": ((cli.SOLVED, "symmetric"), (ASYMMETRIC, "not-symmetric"), NEVER),
     "psd": ((cli.SOLVED, "psd"), (INDEFINITE, "not-psd"), NEVER),
     "definite": ((cli.SOLVED, "definite"), (SINGULAR, "not-definite"), NEVER),
