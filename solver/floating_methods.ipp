@@ -9,6 +9,7 @@
 #include "solver/in_turn.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
+#include "solver/numeric/gauss_seidel.h"
 #include "solver/numeric/proximal.h"
 #include "solver/published/published_space.h"
 #include "solver/solve.ipp"
@@ -130,10 +131,26 @@ Method<Scalar> ProximalRow() {
 }
 
 template <class Scalar>
+Answer<Scalar> RunSweeps(const ContactProblem<Scalar>& problem, const Request& request) {
+  return RunGaussSeidel(problem, Aiming<Scalar>(request));
+}
+
+template <class Scalar>
+Method<Scalar> GaussSeidelRow() {
+  return {.name = "gauss-seidel",
+          .title = "nonlinear block Gauss-Seidel: every contact in turn by its own law, as in most engines",
+          .source = "solver/numeric/gauss_seidel.h",
+          .ends = "nothing; what is called solved has the residual that is asked for",
+          .plane = {&RunSweeps<Scalar>},
+          .space = {&RunSweeps<Scalar>}};
+}
+
+template <class Scalar>
 std::span<const Method<Scalar>> FloatingMethods() {
   static const std::array rows = {
       FastRow<Scalar>(),
       ProximalRow<Scalar>(),
+      GaussSeidelRow<Scalar>(),
       CompleteRow<Scalar>({&RunCoulomb<Scalar, CoulombStart::kComplete>, true}),
       LemkeRow<Scalar>({&RunLemkeInSpace<Scalar>}),
       BaraffRow<Scalar>({&RunBaraffInSpace<Scalar>}),
