@@ -20,6 +20,9 @@
 
 namespace stiction {
 
+// All modes of more contacts are not tried: 4^n words.
+inline constexpr int kMostContactsEnumerated = 3;
+
 // Files: {"format": "stiction-campaign", "version": 1, ...} with any of the fields below.
 struct Campaign {
   std::uint64_t seed = 1;

@@ -33,9 +33,6 @@
 
 namespace stiction {
 
-// All modes of more contacts are not tried in a search: 4^n words.
-inline constexpr int kMostContactsEnumerated = 3;
-
 struct Answers {
   std::vector<Answer<Rational>> methods;  // that follow one path; of each: method, outcome, f
   std::optional<Enumeration> modes;       // where they were tried
