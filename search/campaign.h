@@ -39,11 +39,12 @@ struct Campaign {
   // Complete driving runs on all problems that are audited, on the first of each group of a unit that the
   // published algorithm does not solve, and on one in so many, drawn by their seeds, of the suspicions. Of what
   // it runs on, one in so many is run by Lemke's method too (audited problems: all); and of those of at most
-  // kMostContactsEnumerated contacts one in so many is enumerated: all of up to 4^n contact modes.
+  // enumerate_contacts contacts one in so many is enumerated: all of up to 4^n contact modes.
   // Representatives are run by all when finished.
   std::int64_t complete_every = 100;
   std::int64_t lemke_every = 100;
   std::int64_t enumerate_every = 1000;
+  std::int64_t enumerate_contacts = kMostContactsEnumerated;
   std::int64_t representatives_per_unit = 4;  // new signatures of a unit whose problem is kept
   Limits limits = {1000, 10000, 100000};
   // double: suspicions are decided again, filtered. filtered, exact: every problem is decided so at once.
@@ -81,14 +82,16 @@ inline constexpr auto kCampaignFields = std::to_array<FieldOf<Campaign>>({
      "run one problem in so many exactly though nothing is suspected", "Existence included; 1 audits all"},
     {"lemke_every", &Campaign::lemke_every, "by Lemke’s method too, of the suspicions: one in"},
     {"enumerate_every", &Campaign::enumerate_every, "all modes tried, of exact runs of few contacts: one in",
-     "try all contact modes of one problem in so many",
-     "Of those of at most three contacts that are run exactly"},
+     "try all contact modes of one problem in so many", "Of those of few contacts that are run exactly"},
     {"representatives_per_unit", &Campaign::representatives_per_unit, "new representatives per unit, at most"},
     {"max_drives", [](Campaign& c) -> std::int64_t& { return c.limits.drives; }, "budget, drives"},
     {"max_pivots", [](Campaign& c) -> std::int64_t& { return c.limits.pivots; }, "budget, pivots"},
     {"max_bits", [](Campaign& c) -> std::int64_t& { return c.limits.bits; }, "budget, bits of a number"},
     {"complete_every", &Campaign::complete_every, "given to complete driving, of the suspicions: one in", "",
      "", FieldUse::kDefines, 1, kMostOfField, 1},
+    {"enumerate_contacts", &Campaign::enumerate_contacts, "all modes tried, of at most so many contacts",
+     "the most contacts of a problem whose modes are all tried",
+     "By default 3; each more takes four times as long", FieldUse::kDefines, 1, 6, kMostContactsEnumerated},
     {"arithmetic", &kArithmeticForm},
     {"gravity_only", &Campaign::gravity_only, "bodies under gravity alone",
      "bodies without applied forces: of generators of bodies"},

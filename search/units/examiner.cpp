@@ -199,7 +199,7 @@ void Examiner::Compare(const Place& place, const ExactRun& published, const Exac
     answers.methods.push_back(methods_.lemke(problem, campaign_.limits));
     tally.compared += promised;
   }
-  if (collector_.task().contacts <= kMostContactsEnumerated && IsOneIn(draw, campaign_.enumerate_every)) {
+  if (collector_.task().contacts <= campaign_.enumerate_contacts && IsOneIn(draw, campaign_.enumerate_every)) {
     answers.modes = methods_.modes(problem);
     if (promised) collector_.CountModes(tally, problem, *answers.modes);
   }

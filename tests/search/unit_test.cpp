@@ -463,6 +463,11 @@ TEST_CASE("unit: methods are compared, and all modes tried, as often as the camp
   large.audit_every = large.enumerate_every = 1;
   const AgreementTally none = UnitRunner(large).Run(0).record.agreement.begin()->second;
   CHECK((none.compared == 40 && none.enumerated == 0 && none.safety_decided == 0));
+  const CampaignIdentity usual = IdentityOf(large);
+  large.enumerate_contacts = kMostContactsEnumerated + 1;
+  CHECK_FALSE(IdentityOf(large) == usual);
+  const AgreementTally asked = UnitRunner(large).Run(0).record.agreement.begin()->second;
+  CHECK((asked.compared == 40 && asked.enumerated == 40 && asked.safety_decided == 0));
 }
 
 TEST_CASE("unit: Lemke's method runs on all audits, and by lot on suspicions") {
