@@ -222,7 +222,7 @@ int RunCertify(const CertifyOptions& o) {
 struct CheckOptions {
   std::vector<std::string> files;
   std::string problem;
-  bool json = false;
+  bool quiet = false, json = false;
 };
 
 std::string ValueText(const Json& value) {
@@ -260,6 +260,7 @@ int RunCheck(const CheckOptions& o) {
     try {
       const CheckReport report = CheckText(ReadText(file), file, digest);
       if (!report.accepted) exit = std::max(exit, kExitNotSo);
+      if (o.quiet && report.accepted) continue;
       if (!o.json) Tell("{}: {}\n", file, ReportText(report));
       reports.push_back(ReportToJson(file, report));
     } catch (const InputError& error) {
@@ -330,6 +331,7 @@ const ListedVerb kCheckVerb("Prove", 20, [](CommandLine& program) {
   auto [verb, o] = program.Add("check", "Verify certificates", RunCheck);
   verb.Positional("CERT", o.files, "stiction-certificate files").Required();
   verb.Option("--problem", o.problem, "problem file that all of them must speak of, by its digest");
+  verb.Flag("-q,--quiet", o.quiet, "say nothing of those that are accepted");
   verb.Prints(o.json, "a row for each certificate",
               "[{file: text, accepted: truth, claim?: text, problem?: digest, facts?: object, reason?: text}]");
 });

@@ -121,6 +121,14 @@ class Certificates(cli.TestCase):
         done = self.succeeds("check", out, bad, "--json", code=1).json()
         self.assertEqual([entry["accepted"] for entry in done], [True, False])
 
+    def test_quietly_only_what_is_refused_is_told(self):
+        out, bad = self.folder / "c.json", self.file("bad.json", {**cli.SOLVED})
+        self.succeeds("certify", self.file("p.json", cli.SOLVED), "-o", out)
+        self.assertEqual(self.succeeds("check", "--quiet", out, out).out, "")
+        self.assertEqual(self.succeeds("check", "-q", out, "--json").json(), [])
+        done = self.succeeds("check", "-q", out, bad, out, code=1)
+        self.assertEqual([line.split(": ")[:2] for line in done.out.splitlines()], [[str(bad), "REJECTED"]])
+
     def test_json_that_is_no_certificate_is_rejected(self):
         for value in [{}, [], 3, None, cli.REFERENCE, {"format": "stiction-certificate", "version": 1}]:
             self.check(self.file("c.json", json.dumps(value)), accepted=False)
