@@ -23,6 +23,7 @@
   X(Sliding)                   \
   X(Space)                     \
   X(Exceptional)               \
-  X(Steps)
+  X(Steps)                     \
+  X(Game)
 
 #endif  // STICTION_SEARCH_GENERATORS_LIST_H_
