@@ -199,6 +199,33 @@ class Problems(cli.TestCase):
         f = [Fraction(x) for x in self.default("bridges-4", "--arithmetic", "exact", timeout=300)["f"]]
         self.assertEqual(f[0], 7 / (Fraction("1.01") + Fraction(8 * 4, 500)))
 
+    def test_every_row_of_the_cascade_answers_a_problem(self):
+        """(certify/request/cascade.cpp), where an arithmetic has several."""
+        double, filtered, corpus = "double", "filtered", cli.ROOT / "corpus"
+        for row, file, asked, method, arithmetic, suspected in [
+            ("factors", PROBLEMS / "grip-mu-0.03.json", double, "newton-bodies", "double", None),
+            ("space", corpus / "space" / "cycle-under-both-slips.json", double, "fast", "double", None),
+            ("plane", corpus / "cycle-every-policy-mu-1.json", double, "fast", "double", None),
+            ("singular", PROBLEMS / "lp-4-8.json", double, "proximal", "double", None),
+            ("quad in the plane", PROBLEMS / "over-quad.json", double, "fast", "quad", "undecided"),
+            ("quad in space", PROBLEMS / "over-quad-in-space.json", double, "fast", "quad", "undecided"),
+            ("filtered", corpus / "cycle-every-policy-mu-1.json", filtered, "complete", "filtered", None),
+            ("exact behind it", corpus / "no-solution-zero-matrix.json", filtered, "enumerate", "exact", None),
+        ]:
+            with self.subTest(row=row):
+                answer = cli.run("solve", file, "--json", "--arithmetic", asked).json()
+                self.assertEqual((answer["method"], answer["arithmetic"]), (method, arithmetic))
+                self.assertEqual(answer.get("suspected", {}).get("outcome"), suspected)
+
+    def test_what_doubles_do_not_solve_quad_does(self):
+        for name in ("over-quad", "over-quad-in-space"):
+            found = list(self.solutions(name, ("auto",), ("double",)))
+            self.assertEqual(len(found), 1)
+            problem, _, f, a = found[0]
+            for i, row in enumerate(problem["A"]):
+                size = sum(abs(Fraction(x) * y) for x, y in zip(row, f))
+                self.assertLessEqual(abs(a[i]), Fraction("1e-8") * abs(Fraction(problem["b"][i])) + Fraction("9e-16") * size)
+
     def test_of_two_slips_the_one_that_moves_less_is_told(self):
         answer = self.default("grip-mu-0.03")
         self.assertIs(answer["unique_accelerations"], False)
