@@ -55,7 +55,7 @@ from pathlib import Path
 from drawn_problems import Draw, simpler, written
 from judged_forces import EXCUSED, SLACK, USUAL, Judge, Numbers
 
-METHODS = ["auto", "fast", "complete", "lemke", "proximal", "newton-bodies", "baraff"]
+METHODS = ["auto", "fast", "complete", "lemke", "proximal", "gauss-seidel", "newton-bodies", "baraff"]
 ARITHMETICS = ["double", "float"]
 SELDOM = ["quad", "exact"]  # of few problems
 GENERATORS = ["integers", "psd", "small", "near-degenerate", "duplicates", "conditioned", "bodies", "exponential",
@@ -178,7 +178,8 @@ class Attack:
         for dimension in (2, 3):
             some = [c for c in cases if c.problem["dimension"] == dimension]
             runs = [(m, a, some) for m in METHODS for a in ARITHMETICS]
-            runs += [(m, SELDOM[rounds % len(SELDOM)], some[:12]) for m in ("auto", METHODS[1 + rounds % 7])]
+            by_turns = METHODS[1 + rounds % (len(METHODS) - 1)]
+            runs += [(m, SELDOM[rounds % len(SELDOM)], some[:12]) for m in ("auto", by_turns)]
             for method, arithmetic, which in runs:
                 if which and time.monotonic() < until:
                     self.take(method, arithmetic, which)
