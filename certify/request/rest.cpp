@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/request/rest.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "certify/exact/cones.h"
@@ -12,7 +13,6 @@
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
-#include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 #include "solver/problem/units.h"
 #include "solver/solve.h"
@@ -52,14 +52,9 @@ std::vector<int> GroupOfContacts(const ExactProblem& problem) {
   return group;
 }
 
-struct PartAtRest {
-  ExactProblem problem;
-  std::vector<int> rows;  // in the whole problem
-};
-
-PartAtRest PartOf(const ExactProblem& problem, const std::vector<int>& group, int number) {
+UncoupledPart PartOf(const ExactProblem& problem, const std::vector<int>& group, int number) {
   const std::vector<int> first = FirstRows(problem);
-  PartAtRest part;
+  UncoupledPart part;
   part.problem.dimension = problem.dimension;
   for (std::size_t i = 0; i < group.size(); ++i) {
     if (group[i] != number) continue;
@@ -69,14 +64,6 @@ PartAtRest PartOf(const ExactProblem& problem, const std::vector<int>& group, in
   part.problem.A = problem.A(part.rows, part.rows);
   part.problem.b = problem.b(part.rows);
   return part;
-}
-
-bool IsRegular(const ExactMatrix& A) {
-  const int size = static_cast<int>(A.rows());
-  Elimination<Rational> elimination;
-  elimination.Assign(A);
-  elimination.Run(size, size, size);
-  return elimination.rank() == size;
 }
 
 struct RestProgram {
@@ -224,8 +211,7 @@ FoundByDoubles LookByDoubles(const ExactProblem& problem) {
 }
 
 std::optional<ExactVector> RestOf(const ExactProblem& problem) {
-  constexpr int kMostRows = 60;
-  if (problem.rows() > kMostRows) return std::nullopt;
+  if (problem.rows() > kQuickRows) return std::nullopt;
   if (HasSlidingContact(problem)) return std::nullopt;
   const FoundByDoubles found = LookByDoubles(problem);
   if (found.refuted) return std::nullopt;
@@ -239,19 +225,25 @@ std::optional<ExactVector> RestOf(const ExactProblem& problem) {
   const ExactVector f = -*point;
   if (!FindConeViolation(problem, f)) return f;
   if (found.f && RefutesRest(problem, *found.f + *point)) return std::nullopt;
-  if (IsRegular(problem.A)) return std::nullopt;
+  if (Rank(problem.A) == problem.rows()) return std::nullopt;
   return SearchCone(problem);
 }
 
 }  // namespace
 
+std::vector<UncoupledPart> UncoupledParts(const ExactProblem& problem) {
+  if (problem.contacts.empty()) return {{problem, {}}};
+  const std::vector<int> group = GroupOfContacts(problem);
+  std::vector<UncoupledPart> parts;
+  for (int i = 0; i < static_cast<int>(group.size()); ++i)
+    if (group[i] == i) parts.push_back(PartOf(problem, group, i));
+  return parts;
+}
+
 std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
                                           const ExactVector& a) {
-  const std::vector<int> group = GroupOfContacts(problem);
   std::optional<RestingForces> rest;
-  for (int i = 0; i < static_cast<int>(group.size()); ++i) {
-    if (group[i] != i) continue;
-    const PartAtRest part = PartOf(problem, group, i);
+  for (const UncoupledPart& part : UncoupledParts(problem)) {
     if (std::all_of(part.rows.begin(), part.rows.end(), [&a](int row) { return a[row] == 0; })) continue;
     const auto forces = RestOf(part.problem);
     if (!forces) continue;

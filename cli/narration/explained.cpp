@@ -18,12 +18,12 @@
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/newton_bodies.h"
+#include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/published_ends.h"
 #include "cli/narration/safety.h"
-#include "cli/narration/surveyed.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -31,15 +31,9 @@
 #include "corpus/record/kinds.h"
 #include "corpus/record/loop_sentence.h"
 #include "corpus/store/finding_words.h"
-#include "solver/linear/elimination.ipp"
 
 namespace stiction {
 namespace {
-
-constexpr int kFewRows = 24;               // up to here every method runs, and every claim is tried
-constexpr std::size_t kFewContacts = 8;    // up to here every policy runs, and every contact mode is tried
-constexpr int kFewWords = 1 << 10;         // up to here mu is sought below which A is safe
-constexpr std::int64_t kPrograms = 20000;  // linear programs of an enumeration
 
 // ---- What is found ---------------------------------------------------------------------------------
 
@@ -62,13 +56,6 @@ void AddContacts(const AnyProblem& problem, Json& found) {
   };
   add("mu", mu);
   add("diagonal", diagonal);
-}
-
-int RankOf(const ExactProblem& problem) {
-  Elimination<Rational> system;
-  system.Assign(problem.A);
-  system.Run(problem.rows(), problem.rows(), problem.rows());
-  return system.rank();
 }
 
 // How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space
@@ -146,7 +133,7 @@ Json MethodsOn(const ProblemFile& file, const ExplainOptions& o) {
 
 // The contact modes that have solutions, in the plane.
 Json SolutionsOf(const ExactProblem& problem) {
-  const Enumeration modes = EnumerateModes(problem, {.limits = {.programs = kPrograms}});
+  const Enumeration modes = EnumerateModes(problem, {.limits = {.programs = kProgramsOfOne}});
   Json words = Json::array();
   bool unique = modes.distinct_witnesses == 1;
   for (const WordSolution& solution : modes.solutions) {
@@ -178,7 +165,7 @@ Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::strin
   const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   Request request = {.limits = o.limits};
-  request.limits.programs = kPrograms;
+  request.limits.programs = kProgramsOfOne;
   const std::vector<Policy> policies = PoliciesAsked(policy, problem.dimension);
   const ExactFactors* factors = file.problem.factors();
   const std::string stem = std::filesystem::path(o.file).stem().string();
@@ -251,11 +238,11 @@ Json NextOf(const Json& found, const std::string& file) {
 Json Explained(const ProblemFile& file, const ExplainOptions& o) {
   Json found = {{"file", o.file}};
   AddContacts(file.problem, found);
-  found["survey"] = Surveyed(file.problem, {.limits = o.limits});
+  found["survey"] = Surveyed(file.problem, o.limits);
   if (file.problem.rows() <= kFewRows) {
     const ExactProblem& problem = file.problem;
     std::string policy = "paper";
-    found["rank"] = RankOf(problem);
+    found["rank"] = Rank(problem.A);
     found["methods"] = MethodsOn(file, o);
     found["solve"] = EndByDefault(file, o);
     if (problem.contacts.size() <= kFewContacts) {
@@ -280,6 +267,42 @@ std::string BetweenText(const Json& ends) {
     return Text(*ParseRational(end.get<std::string>()), FractionText::kShort);
   };
   return ends[0] == ends[1] ? text(ends[0]) : fmt::format("{} to {}", text(ends[0]), text(ends[1]));
+}
+
+std::string AssumptionsMetText(const Json& facts) {
+  if (facts["meets assumptions"] == true)
+    return "meets the paper's assumptions: A is symmetric and semidefinite, b in its range";
+  if (facts["meets assumptions"].is_null())
+    return "may meet the paper's assumptions: nothing fails, but bounds do not decide them all";
+  std::vector<std::string> failing;
+  if (facts["asymmetry"]["difference"] != 0) failing.emplace_back("A is not symmetric");
+  if (facts["curvature"]["psd"] == false) failing.emplace_back("A is not semidefinite");
+  if (facts["range"]["in-range"] == false) failing.emplace_back("b is not in the range of A");
+  return fmt::format("does not meet the paper's assumptions: {}", fmt::join(failing, ", "));
+}
+
+std::string RunsText(const Json& facts) {
+  std::string existence = "No method that was tried solved it", published;
+  bool found = false;
+  for (const Json& run : facts["runs"]) {
+    const std::string method = run["method"].get<std::string>(), outcome = run["outcome"].get<std::string>();
+    const bool exact = run.value("arithmetic", "") == "exact";
+    if (method == "baraff") {
+      published = fmt::format("; the published algorithm {} {}",
+                              outcome == "cycle"    ? "loops for ever"
+                              : outcome == "solved" ? "solves it"
+                              : outcome == "wrong"  ? "returns forces that are wrong"
+                                                    : "ends in " + outcome,
+                              exact ? "(policy paper, exactly)" : "(policy paper, over doubles)");
+    }
+    if (found || (outcome != "solved" && outcome != "no-solution")) continue;
+    found = true;
+    existence = outcome == "no-solution"
+                    ? "It has no solution, as a certificate says"
+                    : fmt::format("Method {} solves it {}, with an error of {}", method,
+                                  exact ? "exactly" : "over doubles", ShortText(run["residual"].get<double>()));
+  }
+  return existence + published + ".";
 }
 
 std::string ProblemText(const Json& found) {
