@@ -149,7 +149,8 @@ Json RunOf(const ExactProblem& problem, const Request& request) try {
   const Solution solution = SolveIn(problem, request);
   const auto tell = [&](const auto& answer) {
     Json run = RunToJson(answer, watch);
-    if (answer.f.size() != problem.rows() || !answer.f.allFinite()) return run;
+    const bool is_met = answer.Solved() || answer.arithmetic != kExact;  // of others f is where a run stands
+    if (!is_met || answer.f.size() != problem.rows() || !answer.f.allFinite()) return run;
     const ExactVector f = answer.f.unaryExpr([](const auto& x) { return Rational(x); });
     const ExactVector a = problem.A * f + problem.b;
     run["residual"] = ToDouble(MeasureErrors(problem, FrictionLaw::kCoulomb, f, a).Largest());

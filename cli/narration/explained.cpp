@@ -58,34 +58,30 @@ void AddContacts(const AnyProblem& problem, Json& found) {
   add("diagonal", diagonal);
 }
 
-// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space
+// How every policy ends, by outcome; of those that loop the first, as `paper` is, and its loop. Null in space
 // where doubles do not hold the problem.
 Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
-  Wanted wanted;
-  wanted.method = "baraff";
-  wanted.request.limits = o.limits;
+  Wanted wanted{.method = "baraff", .request = {.limits = o.limits}};
   const std::map<std::string, Json> ends = OutcomesOf(wanted, problem, o.file);
-  std::vector<std::string> looping;
-  Json outcomes = Json::object();
+  Json found = {{"all", ends.size()},
+                {"arithmetic", problem.dimension == 2 ? "exact" : "double"},
+                {"outcomes", Json::object()},
+                {"loops", nullptr}};
+  Json &outcomes = found["outcomes"], &loop = found["loops"];
   for (const Policy& policy : GridOf(problem.dimension)) {
     const std::string name = PolicyName(policy), outcome = ends.at(name)["outcome"];
     outcomes[outcome] = outcomes.value(outcome, 0) + 1;
-    if (ends.at(name).contains("period"))
-      looping.insert(name == "paper" ? looping.begin() : looping.end(), name);
+    if (!loop.is_null() || !ends.at(name).contains("period")) continue;
+    loop = ends.at(name);
+    loop["policy"] = wanted.policy = name;
   }
-  Json found = {{"all", ends.size()},
-                {"arithmetic", problem.dimension == 2 ? "exact" : "double"},
-                {"outcomes", outcomes},
-                {"loops", nullptr}};
-  if (looping.empty()) return found;
-  found["loops"] = ends.at(looping[0]);
-  found["loops"]["policy"] = wanted.policy = looping[0];
+  if (loop.is_null()) return found;
   const auto proved = OverIntervals(problem, PathRequestOf(wanted, problem, o.file), Outcome::kCycle);
   const bool by_intervals = proved && IsLoop(proved->outcome);
-  found["loops"]["proved"] = problem.dimension == 2 || by_intervals;
+  loop["proved"] = problem.dimension == 2 || by_intervals;
   // Intervals tell where the loop begins, too; over doubles it begins where rounded states recur.
-  if (by_intervals) found["loops"].update(EndToJson(*proved));
-  found["loops"]["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
+  if (by_intervals) loop.update(EndToJson(*proved));
+  loop["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
   return found;
 } catch (const InputError&) {
   return nullptr;
@@ -93,9 +89,7 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
 
 // How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
 Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
-  Wanted wanted;
-  wanted.method = method;
-  wanted.request.limits = o.limits;
+  const Wanted wanted{.method = std::string(method), .request = {.limits = o.limits}};
   const AnyProblem problem = method == kNewtonBodies ? InFactors(file) : file.problem;
   const Request request = RequestOf(wanted, problem, o.file);
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
