@@ -202,42 +202,36 @@ Json RunParts(const ExactProblem& problem, const std::vector<UncoupledPart>& par
 bool Solves(const Json& run) { return run["outcome"] == "solved"; }
 bool Decides(const Json& run) { return Solves(run) || run["outcome"] == "no-solution"; }
 
-Json PlanarRuns(const ExactProblem& problem, const Limits& limits, bool suspicions) {
+Json DenseRuns(const ExactProblem& problem, const Limits& limits, bool suspicions) {
   const auto by = [&](std::string_view method, Arithmetic arithmetic) {
     return RunOf(problem, {.method = method, .arithmetic = arithmetic, .limits = limits, .confirm = false});
   };
-  Json runs = Json::array({by("complete", kDouble)});
-  if (!Solves(runs.back())) runs.push_back(by("lemke", kDouble));
+  const bool planar = problem.dimension == 2;
+  Json runs = Json::array({by(planar ? "complete" : "fast", kDouble)});
+  if (planar && !Solves(runs.back())) runs.push_back(by("lemke", kDouble));
   const bool has_solution = suspicions && Solves(runs.back());
-  if (suspicions) runs.push_back(by("baraff", kDouble));
+  if (planar && suspicions) runs.push_back(by("baraff", kDouble));
   const bool is_found = suspicions && Solves(runs.back());
-  if (!is_found && problem.contacts.size() <= kPublishedContacts) runs.push_back(by("baraff", kExact));
-  const std::vector<UncoupledPart> parts = UncoupledParts(problem);
-  const bool few = std::ranges::all_of(
-      parts, [](const auto& part) { return part.problem.contacts.size() <= kExactContacts; });
-  if (!has_solution && few) runs.push_back(RunParts(problem, parts, limits));
-  return runs;
-}
-
-Json SpatialRuns(const ExactProblem& problem, const Limits& limits) {
-  Json runs = Json::array(
-      {RunOf(problem, {.method = "fast", .arithmetic = kDouble, .limits = limits, .confirm = false})});
-  if (problem.contacts.size() <= kExactContactsInSpace)
-    runs.push_back(RunOf(problem, {.method = "complete", .limits = limits}));
+  const std::size_t contacts = problem.contacts.size();
+  if (planar && !is_found && contacts <= kPublishedContacts) runs.push_back(by("baraff", kExact));
+  if (!planar && contacts <= kExactContactsInSpace) runs.push_back(by("complete", kExact));
+  if (planar && !has_solution) {
+    const std::vector<UncoupledPart> parts = UncoupledParts(problem);
+    const auto is_few = [](const auto& part) { return part.problem.contacts.size() <= kExactContacts; };
+    if (std::ranges::all_of(parts, is_few)) runs.push_back(RunParts(problem, parts, limits));
+  }
+  if (std::ranges::any_of(runs, Decides)) return runs;
+  const Arithmetic usual = UsualArithmetic(kAutomatic, problem).arithmetic;
+  runs.push_back(RunOf(problem, {.arithmetic = usual, .limits = limits}));
   return runs;
 }
 
 Json RunsOf(const AnyProblem& problem, const Limits& limits, int dense_rows, bool suspicions) {
-  const bool planar = problem.dimension() == 2;
   Json runs = Json::array();
-  if (planar ? problem.contacts().size() > kExactContacts : problem.rows() > dense_rows)
+  if (problem.dimension() == 2 ? problem.contacts().size() > kExactContacts : problem.rows() > dense_rows)
     runs.push_back(RunSparse(problem, limits));
   if (problem.rows() <= dense_rows) {
-    Json dense = planar ? PlanarRuns(problem, limits, suspicions) : SpatialRuns(problem, limits);
-    if (std::ranges::none_of(dense, Decides)) {
-      const Arithmetic usual = UsualArithmetic(kAutomatic, problem.dense()).arithmetic;
-      dense.push_back(RunOf(problem, {.arithmetic = usual, .limits = limits}));
-    }
+    const Json dense = DenseRuns(problem, limits, suspicions);
     runs.insert(runs.end(), dense.begin(), dense.end());
   }
   if (runs.empty())
