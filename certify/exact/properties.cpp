@@ -137,7 +137,7 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
   return x;
 }
 
-int Rank(const ExactMatrix& A) {
+int RankOf(const ExactMatrix& A) {
   const int size = static_cast<int>(A.rows());
   Elimination<Rational> elimination;
   elimination.Assign(A);

@@ -48,7 +48,7 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
 // Up to so many rows exact elimination of numbers as long as doubles takes no minutes.
 inline constexpr int kQuickRows = 60;
 
-int Rank(const ExactMatrix& A);
+int RankOf(const ExactMatrix& A);
 bool IsSymmetric(const ExactProblem& problem);
 bool IsPositiveSemidefinite(const ExactProblem& problem);
 bool IsInRange(const ExactProblem& problem);

@@ -181,7 +181,7 @@ std::optional<ExactVector> RestOf(const ExactProblem& problem) {
   const ExactVector f = -*point;
   if (!FindConeViolation(problem, f)) return f;
   if (found.f && RefutesRest(problem, *found.f + *point)) return std::nullopt;
-  if (Rank(problem.A) == problem.rows()) return std::nullopt;
+  if (RankOf(problem.A) == problem.rows()) return std::nullopt;
   return SearchCone(problem);
 }
 

@@ -141,7 +141,7 @@ Json SolutionsOf(const ExactProblem& problem) {
 void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& found) {
   const bool handled =
       problem.dimension == 2 && !found["kinds"].contains("bilateral") && !found["kinds"].contains("sliding");
-  if (handled && HasFewWords(problem, kFewWords)) {
+  if (handled && HasFewWords(problem, kExplainedWords)) {
     found["safety"] = SafetyOf(problem);
     const Json& safety = found["safety"];
     found["safe_below"] = safety.contains("threshold") ? safety["threshold"]["low"] : Json();
@@ -233,13 +233,13 @@ Json Explained(const ProblemFile& file, const ExplainOptions& o) {
   Json found = {{"file", o.file}};
   AddContacts(file.problem, found);
   found["survey"] = Surveyed(file.problem, o.limits);
-  if (file.problem.rows() <= kFewRows) {
+  if (file.problem.rows() <= kExplainedRows) {
     const ExactProblem& problem = file.problem;
     std::string policy = "paper";
-    found["rank"] = Rank(problem.A);
+    found["rank"] = RankOf(problem.A);
     found["methods"] = MethodsOn(file, o);
     found["solve"] = EndByDefault(file, o);
-    if (problem.contacts.size() <= kFewContacts) {
+    if (problem.contacts.size() <= kExplainedContacts) {
       const Json policies = PoliciesOn(problem, o);
       if (!policies.is_null()) found["policies"] = policies;
       if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
