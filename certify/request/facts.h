@@ -18,9 +18,9 @@ inline constexpr int kExactContacts = 50;         // if A couples them: all is d
 inline constexpr int kExactContactsInSpace = 10;  // in space: forces are found over rationals
 inline constexpr int kPublishedContacts = 32;     // the published algorithm runs over rationals
 inline constexpr int kDenseRows = 1500;           // methods hold A as a dense matrix, unless asked
-inline constexpr int kExplainedRows = 24;         // every method runs, and every claim is tried
-inline constexpr int kExplainedContacts = 8;      // every policy runs, and every contact mode is tried
-inline constexpr int kExplainedWords = 1 << 10;   // mu is sought below which A is safe
+inline constexpr int kExplainedRows = 24;         // explained: every method runs, every claim is tried
+inline constexpr int kExplainedContacts = 8;      // the same: every policy runs, every contact mode is tried
+inline constexpr int kExplainedWords = 1 << 10;   // mode words: mu is sought below which A is safe
 // Linear programs of an enumeration, of one problem of many and of one alone.
 inline constexpr std::int64_t kProgramsOfSurvey = 10000, kProgramsOfOne = 20000;
 
