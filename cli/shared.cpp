@@ -9,24 +9,13 @@
 #include <iostream>
 #include <sstream>
 
-#include "certify/claims/certificate.h"
-#include "certify/exact/bounds.h"
-#include "certify/exact/hypothesis.h"
-#include "certify/exact/properties.h"
 #include "certify/request/request.h"
 #include "cli/help.h"
 #include "corpus/json.h"
 #include "corpus/named_rows.h"
-#include "corpus/record/asymmetry.h"
-#include "corpus/record/factors.h"
 
 namespace stiction {
 namespace {
-
-constexpr int kExactAssumptionRows =
-    60;  // above, exact elimination of numbers as long as doubles takes minutes
-
-constexpr std::size_t kWitnessContacts = 50;  // up to here an answer has the vectors that show what fails
 
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
@@ -41,16 +30,6 @@ void AddNumbers(Verb& verb, Options& options, const char* group) {
         .Range(row.min, row.max)
         .Group(group);
   });
-}
-
-// (H), which b in range(A) implies for a symmetric A, decided in the plane.
-void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
-  if (problem.dimension != 2 || HasSlidingContact(problem)) return;
-  const auto hypothesis = DecideHypothesis(problem);
-  const auto* obstacle = std::get_if<Obstacle>(&hypothesis);
-  if (obstacle == nullptr) return;
-  failed.push_back(
-      {{"assumption", "h"}, {"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 // The switch or value that is meant by the first setting that names no switch or none of its values.
@@ -126,77 +105,6 @@ const std::atomic<bool>& Interruption() {
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {
   std::ostream& out = output == "-" ? std::cerr : std::cout;
   out << (json ? JsonText(object) + "\n" : Folded(text));
-}
-
-namespace {
-
-Json FailedSemidefinite(const Obstacle& negative) {
-  return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
-}
-
-// An answer of many contacts has the quotient x'Ax / x'x alone, and names the verb that writes x.
-Json FailedSemidefinite(const CurvatureBounds& bounds, std::size_t contacts) {
-  if (contacts <= kWitnessContacts) return FailedSemidefinite(*bounds.negative);
-  return {{"assumption", "psd"}, {"quotient", bounds.most}, {"witness", "certify --claim psd"}};
-}
-
-void AddUndecidedRange(Json& failed) {
-  failed.push_back({{"assumption", "in-range"}, {"undecided", "A may be singular"}});
-}
-
-// What bounds decide of problems too large for exact elimination.
-void AddBoundedAssumptions(const AnyProblem& problem, Json& failed) {
-  const CurvatureBounds curvature = BoundCurvature(problem);
-  if (curvature.negative) {
-    failed.push_back(FailedSemidefinite(curvature, problem.contacts().size()));
-  } else if (!curvature.least || *curvature.least < 0) {
-    failed.push_back({{"assumption", "psd"}, {"undecided", "zero is within the bounds of an eigenvalue"}});
-  }
-  if (problem.rows() > kMostDenseRows || !IsRegularModuloPrime(problem)) AddUndecidedRange(failed);
-}
-
-void AddAsymmetry(const AnyProblem& problem, Json& failed) {
-  std::optional<std::pair<int, int>> pair;
-  if (StaysSparse(problem)) {
-    const Asymmetry largest = LargestAsymmetry(problem);
-    if (largest.difference != 0) pair = {largest.i, largest.j};
-  } else {
-    pair = FindAsymmetry(problem.dense().A);
-  }
-  if (pair) failed.push_back({{"assumption", "symmetric"}, {"i", pair->first}, {"j", pair->second}});
-}
-
-void AddExactAssumptions(const ExactProblem& problem, Json& failed) {
-  const auto semidefinite = DecideSemidefinite(problem.A);
-  if (const auto* negative = std::get_if<Obstacle>(&semidefinite)) {
-    failed.push_back(FailedSemidefinite(*negative));
-  }
-  const auto range = DecideRange(problem.A, problem.b);
-  if (const auto* obstacle = std::get_if<Obstacle>(&range)) {
-    failed.push_back(
-        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
-    AddFailedHypothesis(problem, failed);
-  }
-}
-
-}  // namespace
-
-Json FailedAssumptions(const AnyProblem& problem) {
-  Json failed = Json::array();
-  const bool is_small = problem.rows() <= kExactAssumptionRows;
-  if (problem.factors() != nullptr && !is_small) {
-    const bool in_range =
-        IsInRangeByFactors(*problem.factors()) || (!StaysSparse(problem) && IsRegularModuloPrime(problem));
-    if (!in_range) AddUndecidedRange(failed);
-    return failed;
-  }
-  AddAsymmetry(problem, failed);
-  if (is_small) {
-    AddExactAssumptions(problem, failed);
-  } else {
-    AddBoundedAssumptions(problem, failed);
-  }
-  return failed;
 }
 
 }  // namespace stiction

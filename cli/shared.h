@@ -71,11 +71,6 @@ void Tell(fmt::format_string<Args...> text, Args&&... args) {
 // error where that file stands there (`output` is "-").
 void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object);
 
-// The assumptions of the paper that fail, each with its exact witness; of a large problem as far as bounds
-// decide. In place of a vector of more than 50 contacts stand a number, and the verb that writes the vector. Of
-// factors A is symmetric and semidefinite as it is made, and b in its range where c = 0.
-Json FailedAssumptions(const AnyProblem& problem);
-
 // What FILE is, in help.
 inline constexpr const char* kFileHelp = "a problem, in any form that is read";
 inline constexpr const char* kFileDetails =

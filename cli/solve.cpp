@@ -19,6 +19,7 @@
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/newton_bodies.h"
+#include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/command_line.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "certify/request/facts.h"
 #include "cli/command_line.h"
-#include "cli/narration/surveyed.h"
 #include "cli/shared.h"
 #include "corpus/formats/formats.h"
 #include "corpus/grouped.h"
@@ -23,8 +23,11 @@
 namespace stiction {
 namespace {
 
-struct SurveyVerb : SurveyScope {
+struct SurveyVerb {
   std::vector<std::string> paths;
+  int rows = kDenseRows;
+  bool suspicions = false;
+  Limits limits = {};
   bool json = false;
 };
 
@@ -155,7 +158,7 @@ int Survey(const SurveyVerb& o) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
     try {
-      Json entry = Surveyed(ReadProblem(file, kAnyRows).problem, o);
+      Json entry = Surveyed(ReadProblem(file, kAnyRows).problem, o.limits, o.rows, o.suspicions);
       entry["file"] = file.string();
       bar.Clear();
       if (!o.json) PrintSurveyed(entry);

@@ -51,8 +51,7 @@ Json ObstacleCertificate(const char* claim, const char* vector, const ExactProbl
 
 // Of a matrix whose elimination takes minutes: what doubles find, and rationals confirm.
 std::optional<Obstacle> FindNegativeCurvature(const ExactProblem& problem) {
-  constexpr int kEliminatedRows = 60;
-  if (problem.rows() <= kEliminatedRows) return std::nullopt;
+  if (problem.rows() <= kQuickRows) return std::nullopt;
   return BoundCurvature(problem).negative;
 }
 

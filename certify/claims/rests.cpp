@@ -20,9 +20,8 @@ void RequireNoneSlides(const ExactProblem& problem, const std::string& source) {
 }
 
 Json OfRest(const ExactProblem& problem) {
-  constexpr int kMostRows = 60;
-  if (problem.rows() > kMostRows)
-    return fmt::format("it has {} rows, and programs take {}", problem.rows(), kMostRows);
+  if (problem.rows() > kQuickRows)
+    return fmt::format("it has {} rows, and programs take {}", problem.rows(), kQuickRows);
   const Rest rest = DecideRest(problem);
   if (rest.f) return MakeCertificate("rests", problem, {{"f", VectorToJson(*rest.f)}});
   if (!rest.y) return "it hangs on a force at the edge of a friction cone";

@@ -137,6 +137,14 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
   return x;
 }
 
+int RankOf(const ExactMatrix& A) {
+  const int size = static_cast<int>(A.rows());
+  Elimination<Rational> elimination;
+  elimination.Assign(A);
+  elimination.Run(size, size, size);
+  return elimination.rank();
+}
+
 bool IsSymmetric(const ExactProblem& problem) { return !FindAsymmetry(problem.A); }
 
 bool IsPositiveSemidefinite(const ExactProblem& problem) {

@@ -45,6 +45,10 @@ std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A);
 // x with A x = b; or y'b /= 0, where y'A = 0.
 std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const ExactVector& b);
 
+// Up to so many rows exact elimination of numbers as long as doubles takes no minutes.
+inline constexpr int kQuickRows = 60;
+
+int RankOf(const ExactMatrix& A);
 bool IsSymmetric(const ExactProblem& problem);
 bool IsPositiveSemidefinite(const ExactProblem& problem);
 bool IsInRange(const ExactProblem& problem);

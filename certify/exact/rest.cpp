@@ -3,6 +3,8 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 #include "certify/exact/cones.h"
 #include "certify/exact/farkas.h"
@@ -10,71 +12,11 @@
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
-#include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
 #include "solver/solve.h"
 
 namespace stiction {
 namespace {
-
-// The first row of every contact, and the number of rows.
-std::vector<int> FirstRows(const ExactProblem& problem) {
-  std::vector<int> rows = {0};
-  for (const auto& contact : problem.contacts)
-    rows.push_back(rows.back() + (contact.HasFrictionRows() ? problem.dimension : 1));
-  return rows;
-}
-
-// By contact: the number of its group, which is that of a contact in it.
-std::vector<int> GroupOfContacts(const ExactProblem& problem) {
-  const std::vector<int> first = FirstRows(problem);
-  const int count = static_cast<int>(problem.contacts.size());
-  std::vector<int> group(count, -1);
-  for (int seed = 0; seed < count; ++seed) {
-    if (group[seed] >= 0) continue;
-    group[seed] = seed;
-    for (std::vector<int> reached = {seed}; !reached.empty();) {
-      const int i = reached.back();
-      reached.pop_back();
-      for (int j = 0; j < count; ++j) {
-        const int height = first[i + 1] - first[i], width = first[j + 1] - first[j];
-        if (group[j] >= 0 || (problem.A.block(first[i], first[j], height, width).isZero() &&
-                              problem.A.block(first[j], first[i], width, height).isZero()))
-          continue;
-        group[j] = seed;
-        reached.push_back(j);
-      }
-    }
-  }
-  return group;
-}
-
-struct PartAtRest {
-  ExactProblem problem;
-  std::vector<int> rows;  // in the whole problem
-};
-
-PartAtRest PartOf(const ExactProblem& problem, const std::vector<int>& group, int number) {
-  const std::vector<int> first = FirstRows(problem);
-  PartAtRest part;
-  part.problem.dimension = problem.dimension;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    if (group[i] != number) continue;
-    part.problem.contacts.push_back(problem.contacts[i]);
-    for (int row = first[i]; row < first[i + 1]; ++row) part.rows.push_back(row);
-  }
-  part.problem.A = problem.A(part.rows, part.rows);
-  part.problem.b = problem.b(part.rows);
-  return part;
-}
-
-bool IsRegular(const ExactMatrix& A) {
-  const int size = static_cast<int>(A.rows());
-  Elimination<Rational> elimination;
-  elimination.Assign(A);
-  elimination.Run(size, size, size);
-  return elimination.rank() == size;
-}
 
 // f in K with A f + b = 0 along the edges of polygons, or y that refutes it (DecideRest).
 Rest DecideRestAlong(const ExactProblem& problem, const RationalPolygons& polygons, EdgesOf which) {
@@ -220,8 +162,7 @@ FoundByDoubles LookByDoubles(const ExactProblem& problem) {
 }
 
 std::optional<ExactVector> RestOf(const ExactProblem& problem) {
-  constexpr int kMostRows = 60;
-  if (problem.rows() > kMostRows) return std::nullopt;
+  if (problem.rows() > kQuickRows) return std::nullopt;
   if (HasSlidingContact(problem)) return std::nullopt;
   const FoundByDoubles found = LookByDoubles(problem);
   if (found.refuted) return std::nullopt;
@@ -235,19 +176,43 @@ std::optional<ExactVector> RestOf(const ExactProblem& problem) {
   const ExactVector f = -*point;
   if (!FindConeViolation(problem, f)) return f;
   if (found.f && RefutesRest(problem, *found.f + *point)) return std::nullopt;
-  if (IsRegular(problem.A)) return std::nullopt;
+  if (RankOf(problem.A) == problem.rows()) return std::nullopt;
   return DecideRest(problem).f;
 }
 
 }  // namespace
 
+std::vector<UncoupledPart> UncoupledParts(const ExactProblem& problem) {
+  if (problem.contacts.empty()) return {{problem, {}}};
+  std::vector<int> group(problem.contacts.size());  // the first contact of the one that it is in
+  std::vector<int> contact_of;                      // by row
+  ForEachContact(problem, [&](int i, int, int rows) { contact_of.insert(contact_of.end(), rows, i); });
+  std::iota(group.begin(), group.end(), 0);
+  for (int i = 0; i < problem.rows(); ++i) {
+    for (int j = 0; j < problem.rows(); ++j) {
+      const int one = group[contact_of[i]], other = group[contact_of[j]];
+      if (one != other && problem.A(i, j) != 0)
+        std::ranges::replace(group, std::max(one, other), std::min(one, other));
+    }
+  }
+  std::map<int, UncoupledPart> parts;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    parts[group[i]].problem.contacts.push_back(problem.contacts[i]);
+  for (int i = 0; i < problem.rows(); ++i) parts[group[contact_of[i]]].rows.push_back(i);
+  std::vector<UncoupledPart> list;
+  for (auto& [unused, part] : parts) {
+    part.problem.dimension = problem.dimension;
+    part.problem.A = problem.A(part.rows, part.rows);
+    part.problem.b = problem.b(part.rows);
+    list.push_back(std::move(part));
+  }
+  return list;
+}
+
 std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const ExactVector& f,
                                           const ExactVector& a) {
-  const std::vector<int> group = GroupOfContacts(problem);
   std::optional<RestingForces> rest;
-  for (int i = 0; i < static_cast<int>(group.size()); ++i) {
-    if (group[i] != i) continue;
-    const PartAtRest part = PartOf(problem, group, i);
+  for (const UncoupledPart& part : UncoupledParts(problem)) {
     if (std::all_of(part.rows.begin(), part.rows.end(), [&a](int row) { return a[row] == 0; })) continue;
     const auto forces = RestOf(part.problem);
     if (!forces) continue;

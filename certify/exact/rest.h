@@ -34,6 +34,14 @@ struct Rest {
 // By linear programs over rationals. Requires no sliding contact.
 Rest DecideRest(const ExactProblem& problem);
 
+// Contacts that A couples, directly or through others, are a problem of their own.
+struct UncoupledPart {
+  ExactProblem problem;
+  std::vector<int> rows;  // in the whole problem
+};
+// In the order of their first contacts; of no contacts the problem itself.
+std::vector<UncoupledPart> UncoupledParts(const ExactProblem& problem);
+
 // Forces of the groups that accelerate and can rest, by row; the others' are as they were.
 struct RestingForces {
   ExactVector f;

@@ -94,12 +94,6 @@ Solution SolveIn(const AnyProblem& problem, const Request& request, Stopwatch* w
   return SolvePosed(Posed(problem, watch), request);
 }
 
-InexactAnswer SolveWithoutA(const AnyProblem& problem, const Request& request) {
-  Posed posed(problem);
-  posed.KeepSparse();
-  return std::get<InexactAnswer>(SolveInTurn(posed, request).answer);
-}
-
 Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request) {
   return SolvePosed(Posed(problem), request);
 }

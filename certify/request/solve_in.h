@@ -59,9 +59,6 @@ ArithmeticChoice UsualArithmetic(std::string_view method, const AnyProblem& prob
 // arithmetic.
 Solution SolveIn(const AnyProblem& problem, const Request& request, Stopwatch* watch = nullptr);
 
-// `auto` over doubles as if all of A were a burden: by its entries or in its factors, whatever its size.
-InexactAnswer SolveWithoutA(const AnyProblem& problem, const Request& request);
-
 // The same of doubles over doubles, with no rationals but where it takes them: the answer of SolveIn,
 // arithmetic kDouble, of the rationals that they are. Requires finite numbers.
 Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request);

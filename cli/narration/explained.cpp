@@ -18,12 +18,12 @@
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/newton_bodies.h"
+#include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/published_ends.h"
 #include "cli/narration/safety.h"
-#include "cli/narration/surveyed.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
@@ -31,15 +31,9 @@
 #include "corpus/record/kinds.h"
 #include "corpus/record/loop_sentence.h"
 #include "corpus/store/finding_words.h"
-#include "solver/linear/elimination.ipp"
 
 namespace stiction {
 namespace {
-
-constexpr int kFewRows = 24;               // up to here every method runs, and every claim is tried
-constexpr std::size_t kFewContacts = 8;    // up to here every policy runs, and every contact mode is tried
-constexpr int kFewWords = 1 << 10;         // up to here mu is sought below which A is safe
-constexpr std::int64_t kPrograms = 20000;  // linear programs of an enumeration
 
 // ---- What is found ---------------------------------------------------------------------------------
 
@@ -64,41 +58,30 @@ void AddContacts(const AnyProblem& problem, Json& found) {
   add("diagonal", diagonal);
 }
 
-int RankOf(const ExactProblem& problem) {
-  Elimination<Rational> system;
-  system.Assign(problem.A);
-  system.Run(problem.rows(), problem.rows(), problem.rows());
-  return system.rank();
-}
-
-// How every policy ends, by outcome; of those that loop one, `paper` if it does, and its loop. Null in space
+// How every policy ends, by outcome; of those that loop the first, as `paper` is, and its loop. Null in space
 // where doubles do not hold the problem.
 Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
-  Wanted wanted;
-  wanted.method = "baraff";
-  wanted.request.limits = o.limits;
+  Wanted wanted{.method = "baraff", .request = {.limits = o.limits}};
   const std::map<std::string, Json> ends = OutcomesOf(wanted, problem, o.file);
-  std::vector<std::string> looping;
-  Json outcomes = Json::object();
+  Json found = {{"all", ends.size()},
+                {"arithmetic", problem.dimension == 2 ? "exact" : "double"},
+                {"outcomes", Json::object()},
+                {"loops", nullptr}};
+  Json &outcomes = found["outcomes"], &loop = found["loops"];
   for (const Policy& policy : GridOf(problem.dimension)) {
     const std::string name = PolicyName(policy), outcome = ends.at(name)["outcome"];
     outcomes[outcome] = outcomes.value(outcome, 0) + 1;
-    if (ends.at(name).contains("period"))
-      looping.insert(name == "paper" ? looping.begin() : looping.end(), name);
+    if (!loop.is_null() || !ends.at(name).contains("period")) continue;
+    loop = ends.at(name);
+    loop["policy"] = wanted.policy = name;
   }
-  Json found = {{"all", ends.size()},
-                {"arithmetic", problem.dimension == 2 ? "exact" : "double"},
-                {"outcomes", outcomes},
-                {"loops", nullptr}};
-  if (looping.empty()) return found;
-  found["loops"] = ends.at(looping[0]);
-  found["loops"]["policy"] = wanted.policy = looping[0];
+  if (loop.is_null()) return found;
   const auto proved = OverIntervals(problem, PathRequestOf(wanted, problem, o.file), Outcome::kCycle);
   const bool by_intervals = proved && IsLoop(proved->outcome);
-  found["loops"]["proved"] = problem.dimension == 2 || by_intervals;
+  loop["proved"] = problem.dimension == 2 || by_intervals;
   // Intervals tell where the loop begins, too; over doubles it begins where rounded states recur.
-  if (by_intervals) found["loops"].update(EndToJson(*proved));
-  found["loops"]["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
+  if (by_intervals) loop.update(EndToJson(*proved));
+  loop["kind"] = Name(by_intervals && !proved->reason.empty() ? ProofKind::kBox : ProofKind::kStates);
   return found;
 } catch (const InputError&) {
   return nullptr;
@@ -106,9 +89,7 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
 
 // How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
 Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
-  Wanted wanted;
-  wanted.method = method;
-  wanted.request.limits = o.limits;
+  const Wanted wanted{.method = std::string(method), .request = {.limits = o.limits}};
   const AnyProblem problem = method == kNewtonBodies ? InFactors(file) : file.problem;
   const Request request = RequestOf(wanted, problem, o.file);
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
@@ -146,7 +127,7 @@ Json MethodsOn(const ProblemFile& file, const ExplainOptions& o) {
 
 // The contact modes that have solutions, in the plane.
 Json SolutionsOf(const ExactProblem& problem) {
-  const Enumeration modes = EnumerateModes(problem, {.limits = {.programs = kPrograms}});
+  const Enumeration modes = EnumerateModes(problem, {.limits = {.programs = kProgramsOfOne}});
   Json words = Json::array();
   bool unique = modes.distinct_witnesses == 1;
   for (const WordSolution& solution : modes.solutions) {
@@ -160,7 +141,7 @@ Json SolutionsOf(const ExactProblem& problem) {
 void AddMargins(const ExactProblem& problem, const ExplainOptions& o, Json& found) {
   const bool handled =
       problem.dimension == 2 && !found["kinds"].contains("bilateral") && !found["kinds"].contains("sliding");
-  if (handled && HasFewWords(problem, kFewWords)) {
+  if (handled && HasFewWords(problem, kExplainedWords)) {
     found["safety"] = SafetyOf(problem);
     const Json& safety = found["safety"];
     found["safe_below"] = safety.contains("threshold") ? safety["threshold"]["low"] : Json();
@@ -178,7 +159,7 @@ Json ClaimsOf(const ProblemFile& file, const ExplainOptions& o, const std::strin
   const ExactProblem& problem = file.problem;
   Json claims = Json::array();
   Request request = {.limits = o.limits};
-  request.limits.programs = kPrograms;
+  request.limits.programs = kProgramsOfOne;
   const std::vector<Policy> policies = PoliciesAsked(policy, problem.dimension);
   const ExactFactors* factors = file.problem.factors();
   const std::string stem = std::filesystem::path(o.file).stem().string();
@@ -251,14 +232,14 @@ Json NextOf(const Json& found, const std::string& file) {
 Json Explained(const ProblemFile& file, const ExplainOptions& o) {
   Json found = {{"file", o.file}};
   AddContacts(file.problem, found);
-  found["survey"] = Surveyed(file.problem, {.limits = o.limits});
-  if (file.problem.rows() <= kFewRows) {
+  found["survey"] = Surveyed(file.problem, o.limits);
+  if (file.problem.rows() <= kExplainedRows) {
     const ExactProblem& problem = file.problem;
     std::string policy = "paper";
-    found["rank"] = RankOf(problem);
+    found["rank"] = RankOf(problem.A);
     found["methods"] = MethodsOn(file, o);
     found["solve"] = EndByDefault(file, o);
-    if (problem.contacts.size() <= kFewContacts) {
+    if (problem.contacts.size() <= kExplainedContacts) {
       const Json policies = PoliciesOn(problem, o);
       if (!policies.is_null()) found["policies"] = policies;
       if (problem.dimension == 2) found["solutions"] = SolutionsOf(problem);
@@ -280,6 +261,42 @@ std::string BetweenText(const Json& ends) {
     return Text(*ParseRational(end.get<std::string>()), FractionText::kShort);
   };
   return ends[0] == ends[1] ? text(ends[0]) : fmt::format("{} to {}", text(ends[0]), text(ends[1]));
+}
+
+std::string AssumptionsMetText(const Json& facts) {
+  if (facts["meets assumptions"] == true)
+    return "meets the paper's assumptions: A is symmetric and semidefinite, b in its range";
+  if (facts["meets assumptions"].is_null())
+    return "may meet the paper's assumptions: nothing fails, but bounds do not decide them all";
+  std::vector<std::string> failing;
+  if (facts["asymmetry"]["difference"] != 0) failing.emplace_back("A is not symmetric");
+  if (facts["curvature"]["psd"] == false) failing.emplace_back("A is not semidefinite");
+  if (facts["range"]["in-range"] == false) failing.emplace_back("b is not in the range of A");
+  return fmt::format("does not meet the paper's assumptions: {}", fmt::join(failing, ", "));
+}
+
+std::string RunsText(const Json& facts) {
+  std::string existence = "No method that was tried solved it", published;
+  bool found = false;
+  for (const Json& run : facts["runs"]) {
+    const std::string method = run["method"].get<std::string>(), outcome = run["outcome"].get<std::string>();
+    const bool exact = run.value("arithmetic", "") == "exact";
+    if (method == "baraff") {
+      published = fmt::format("; the published algorithm {} {}",
+                              outcome == "cycle"    ? "loops for ever"
+                              : outcome == "solved" ? "solves it"
+                              : outcome == "wrong"  ? "returns forces that are wrong"
+                                                    : "ends in " + outcome,
+                              exact ? "(policy paper, exactly)" : "(policy paper, over doubles)");
+    }
+    if (found || (outcome != "solved" && outcome != "no-solution")) continue;
+    found = true;
+    existence = outcome == "no-solution"
+                    ? "It has no solution, as a certificate says"
+                    : fmt::format("Method {} solves it {}, with an error of {}", method,
+                                  exact ? "exactly" : "over doubles", ShortText(run["residual"].get<double>()));
+  }
+  return existence + published + ".";
 }
 
 std::string ProblemText(const Json& found) {

@@ -19,6 +19,7 @@ std::string Text(const Rational& x, FractionText fractions) {
 }
 
 std::string Text(double x, FractionText) { return fmt::format("{:.6g}", x + 0.0); }  // no -0
+std::string ShortText(double x) { return x == 0 ? "0" : fmt::format("{:.0e}", x); }
 
 std::string DescribeEnd(Outcome outcome, std::string_view reason, std::int64_t start, std::int64_t period) {
   if (IsLoop(outcome)) {

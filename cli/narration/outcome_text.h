@@ -19,6 +19,7 @@ enum class FractionText { kFull, kShort };
 // is none, six digits behind a ~.
 std::string Text(const Rational& x, FractionText fractions = FractionText::kFull);
 std::string Text(double x, FractionText = FractionText::kFull);  // six digits
+std::string ShortText(double x);                                 // "3e-16"
 
 // Of the start and the period of a loop.
 inline constexpr std::string_view UnitOf(Outcome loop) { return loop == Outcome::kStall ? "step" : "drive"; }

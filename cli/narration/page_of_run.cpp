@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "certify/exact/exact.h"
+#include "certify/request/facts.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/published_ends.h"
 
@@ -12,10 +13,9 @@ namespace {
 
 // Every policy of the grid is expected to end as this run does, and does.
 bool EveryPolicyEndsSo(const ProblemFile& file, const Solution& solution, const Limits& limits) {
-  constexpr std::size_t kFewContacts = 8;  // a run of every policy takes a moment
   const bool expected = file.expect.size() == 1 && file.expect.begin()->first == "*" &&
                         file.expect.begin()->second == Name(solution.outcome());
-  return expected && file.problem.dimension() == 2 && file.problem.contacts().size() <= kFewContacts &&
+  return expected && file.problem.dimension() == 2 && file.problem.contacts().size() <= kExplainedContacts &&
          AllEndIn(solution.outcome(), file.problem, PlanarGrid(), limits);
 }
 

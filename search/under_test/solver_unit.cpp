@@ -297,7 +297,7 @@ bool KeepsPromises(const ExactProblem& found, const ExactProblem& problem) {
   if (is_found) return true;  // of doubles, which are not quite what bodies make
   if ((EachRowMoves(found) && !EachRowMoves(problem)) || (!found.b.isZero() && problem.b.isZero()))
     return false;
-  return IsSymmetric(problem) && IsPositiveSemidefinite(problem) && IsInRange(problem);
+  return MeetsAssumptions(problem);
 }
 
 // Whether a failure is the one that is sought: the same in kind and way and, of what is wrong, as clear.

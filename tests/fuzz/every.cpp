@@ -8,9 +8,9 @@
 
 #include "certify/exact/answer_json.h"
 #include "certify/request/entries.h"
+#include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "cli/narration/explained.h"
-#include "cli/narration/surveyed.h"
 #include "corpus/formats/read_problem.h"
 #include "corpus/json.h"
 #include "corpus/record/digest.h"
@@ -104,7 +104,7 @@ bool FuzzEvery(std::string_view bytes) {
   STICTION_CHECK(!ProblemDigest(file.problem).empty(), "a problem without a digest");
   TakeMethods(file, source);
   TakeEntries(file.problem);
-  RequireJson(Surveyed(file.problem, {.limits = kLimits}), "survey");
+  RequireJson(Surveyed(file.problem, kLimits), "survey");
   const Json explained = Explained(file, {source, kLimits});
   RequireJson(explained, "explain");
   STICTION_CHECK(!ExplainedText(explained).empty(), "nothing to say of a problem");
