@@ -49,8 +49,7 @@ void AddFailedHypothesis(const ExactProblem& problem, Json& failed) {
   const auto hypothesis = DecideHypothesis(problem);
   const auto* obstacle = std::get_if<Obstacle>(&hypothesis);
   if (obstacle == nullptr) return;
-  failed.push_back(
-      {{"assumption", "h"}, {"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
+  failed.push_back({{"assumption", "h"}, {"v", ListJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 // The switch or value that is meant by the first setting that names no switch or none of its values.
@@ -123,7 +122,7 @@ const std::atomic<bool>& Interruption() {
   return interrupted;
 }
 
-void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {
+void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const SharedJson& object) {
   std::ostream& out = output == "-" ? std::cerr : std::cout;
   out << (json ? JsonText(object) + "\n" : Folded(text));
 }
@@ -131,7 +130,7 @@ void SayWhatWasDone(const std::string& output, bool json, const std::string& tex
 namespace {
 
 Json FailedSemidefinite(const Obstacle& negative) {
-  return {{"assumption", "psd"}, {"x", VectorToJson(negative.x)}, {"value", ToString(negative.value)}};
+  return {{"assumption", "psd"}, {"x", ListJson(negative.x)}, {"value", ToString(negative.value)}};
 }
 
 // An answer of many contacts has the quotient x'Ax / x'x alone, and names the verb that writes x.
@@ -174,7 +173,7 @@ void AddExactAssumptions(const ExactProblem& problem, Json& failed) {
   const auto range = DecideRange(problem.A, problem.b);
   if (const auto* obstacle = std::get_if<Obstacle>(&range)) {
     failed.push_back(
-        {{"assumption", "in-range"}, {"y", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
+        {{"assumption", "in-range"}, {"y", ListJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
     AddFailedHypothesis(problem, failed);
   }
 }

@@ -19,6 +19,7 @@
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
+#include "corpus/json.h"
 #include "corpus/record/asymmetry.h"
 #include "corpus/record/factors.h"
 #include "corpus/rounded.h"
@@ -239,11 +240,11 @@ std::pair<Json, std::string> DecideByGroups(const ExactProblem& problem,
     part.b = problem.b(rows);
     const ClaimAnswer existence = DecideExistence(part, request);
     methods.emplace(existence.method);
-    if (existence.certificate.is_null()) return {nullptr, std::string(existence.method)};
-    if (existence.certificate["claim"] != "solution-exists") {
+    if (!existence.certificate) return {nullptr, std::string(existence.method)};
+    if (existence.certificate->at("claim") != "solution-exists") {
       return {existence.certificate, std::string(existence.method)};
     }
-    const Json& forces = existence.certificate["witness"]["f"];
+    const Json& forces = existence.certificate->at("witness").at("f");
     for (std::size_t k = 0; k < rows.size(); ++k) f[rows[k]] = *ParseRational(forces[k].get<std::string>());
   }
   return {SolutionCertificate(problem, f), fmt::format("{}", fmt::join(methods, "+"))};

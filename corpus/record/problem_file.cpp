@@ -421,12 +421,6 @@ Json ContactToJson(const Contact<Rational>& contact, int dimension) {
   return json;
 }
 
-Json RowsToJson(const Matrix& A) {
-  Json json = Json::array();
-  for (int i = 0; i < A.rows(); ++i) json.push_back(ListJson(A.row(i)));
-  return json;
-}
-
 // Large, symmetric, and mostly zeros.
 bool IsBestSparse(const Matrix& A) {
   constexpr int kSmall = 64;
@@ -447,7 +441,7 @@ Json EntriesToJson(const Matrix& A) {
 
 Json MatrixToJson(const Matrix& A, int rows) {
   STICTION_CHECK(A.rows() == rows && A.cols() == rows, "A does not fit the contacts");
-  return IsBestSparse(A) ? EntriesToJson(A) : RowsToJson(A);
+  return IsBestSparse(A) ? EntriesToJson(A) : RowsJson(A);
 }
 
 // The same of any sparse matrix. An entry without its mirror stands beside a zero.
@@ -576,8 +570,7 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
 }
 
 ProblemFile ParseProblem(std::string_view text, const std::string& source, int most_rows) {
-  const Json json = ParseJson(text, source);
-  const JsonPlace place(json, source, "");
+  const JsonPlace place(text, source);
   Faults faults(source);
   ProblemFile file;
   file.problem = ProblemReader(false).Read(place, faults);
@@ -630,15 +623,15 @@ Json ProblemToJson(const ExactProblem& problem) {
 
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
-Json ToJson(const ProblemFile& file) {
+SharedJson ToJson(const ProblemFile& file) {
   const Json problem = AnyProblemToJson(file.problem);
   Json json;
   for (const auto& member : problem.items()) {
     if (member.key() == "dimension") json["name"] = file.name;
     json[member.key()] = member.value();
   }
-  if (file.scene) json["scene"] = *file.scene;
-  if (file.origin) json["origin"] = *file.origin;
+  if (file.scene) json["scene"] = file.scene;
+  if (file.origin) json["origin"] = file.origin;
   if (!file.expect.empty()) json["expect"] = file.expect;
   return json;
 }
