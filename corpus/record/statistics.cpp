@@ -335,10 +335,8 @@ Record ParseRecord(const std::string& text, const std::string& source) {
   ForEachIn(root.Required("tallies", "a list"), [&record](const JsonPlace& entry) {
     PlaceFor(record.tallies, ReadKey(entry), entry, "each generator, size and policy once") = ReadTally(entry);
   });
-  const JsonPlace signatures = root.Required("signatures", "counts by signature");
-  signatures.RequireObject();
-  for (const auto& [signature, count] : signatures.json().items())
-    record.signatures[signature] = ReadCount(signatures.Child(signature, count));
+  for (const auto& [signature, count] : root.Required("signatures", "counts by signature").Members())
+    record.signatures[signature] = ReadCount(count);
   ForEachIn(root.Required("existence", "a list"), [&record](const JsonPlace& entry) {
     const int contacts = ReadSmall(entry.Required("contacts", "a number"));
     ReadCounters(entry, PlaceFor(record.existence, contacts, entry, "each size once"), {"contacts"});

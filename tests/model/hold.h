@@ -22,6 +22,7 @@
 #include "certify/claims/existence.h"
 #include "certify/request/entries.h"
 #include "corpus/formats/formats.h"
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/units/minimize.h"
 #include "solver/problem/gate.h"
