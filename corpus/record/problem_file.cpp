@@ -371,19 +371,17 @@ std::string CanonicalPolicy(const std::string& text, const JsonPlace& place) {
 }
 
 std::map<std::string, std::string> ReadExpect(const JsonPlace& place) {
-  place.RequireObject();
   const std::string outcomes = fmt::format("one of {}", fmt::join(kOutcomeNames, ", "));
   std::map<std::string, std::string> expect;
   std::map<std::string, std::string> spelling;  // canonical policy -> as written
-  for (const auto& member : place.json().items()) {
-    const JsonPlace outcome = place.Child(member.key(), member.value());
+  for (const auto& [key, outcome] : place.Members()) {
     const std::string& name = outcome.Text(outcomes);
     if (std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name) == kOutcomeNames.end())
       outcome.Refuse(outcomes);
-    const auto [before, is_new] = spelling.emplace(CanonicalPolicy(member.key(), outcome), member.key());
+    const auto [before, is_new] = spelling.emplace(CanonicalPolicy(key, outcome), key);
     if (!is_new)
       outcome.Refuse("a duplicate key", "each policy once (it is " + Shown(before->second) + " too)");
-    expect[member.key()] = name;
+    expect[key] = name;
   }
   return expect;
 }
