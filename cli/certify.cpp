@@ -16,6 +16,7 @@
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
+#include "certify/claims/witness.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "cli/command_line.h"
@@ -76,7 +77,7 @@ int ListSolutions(const CertifyOptions& o, const ProblemFile& file) {
   Json words = Json::array();
   for (const WordSolution& solution : modes.solutions) {
     words.push_back(
-        {{"modes", WordToJson(solution.word)}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
+        {{"modes", WordToJson(solution.word)}, {"f", ListJson(solution.f)}, {"unique", solution.unique}});
   }
   const bool complete = modes.end == EnumerationEnd::kComplete;
   if (o.json) {
@@ -113,7 +114,7 @@ int ShowSafety(const CertifyOptions& o, const ProblemFile& file) {
 // one.
 std::optional<TouchingScene> ReadTouchingScene(const CertifyOptions& o, const ProblemFile& file) {
   if (!file.scene) return std::nullopt;
-  const Scene<Rational> scene = ParseScene(JsonText(*file.scene), o.file + ": scene").scene;
+  const Scene<Rational> scene = ParseScene(JsonText(file.scene), o.file + ": scene").scene;
   if (const auto unfit = UnfitForBox(scene))
     throw InputError(o.file, "scene." + unfit->path, unfit->found, unfit->expected + " (--robust)");
   TouchingScene touching = Touching(scene);
@@ -239,7 +240,7 @@ std::string ValuesText(const Json& values) {
 std::string ReportText(const CheckReport& report) {
   if (!report.accepted) return "REJECTED: " + report.reason;
   std::string facts;
-  for (const auto& [name, value] : report.facts.items())
+  for (const auto& [name, value] : report.facts->items())
     facts += fmt::format("{} {}, ", name, value.is_array() ? ValuesText(value) : ValueText(value));
   return fmt::format("accepted: {}, {}problem {}", report.claim, facts, report.digest);
 }
@@ -249,7 +250,7 @@ Json ReportToJson(const std::string& file, const CheckReport& report) {
           {"accepted", report.accepted},
           {"claim", report.claim},
           {"problem", report.digest},
-          {report.accepted ? "facts" : "reason", report.accepted ? report.facts : Json(report.reason)}};
+          {report.accepted ? "facts" : "reason", report.accepted ? *report.facts : Json(report.reason)}};
 }
 
 // One line, or one object, per file. A file that cannot be read does not keep the others from being checked.

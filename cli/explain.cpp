@@ -7,6 +7,7 @@
 #include "cli/narration/explained.h"
 #include "cli/program.h"
 #include "cli/shared.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {

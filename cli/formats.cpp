@@ -10,7 +10,6 @@
 #include "cli/command_line.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
 #include "corpus/named_rows.h"
 #include "corpus/record/asymmetry.h"
 #include "search/campaign.h"
@@ -47,8 +46,8 @@ int Import(const FormatsVerb& o) {
                  fmt::format("{}: {}, dimension {}, largest abs(A - A') {:.3g}\n", o.output,
                              Counted(static_cast<std::int64_t>(problem.contacts().size()), "contact"),
                              problem.dimension(), ToDouble(asymmetry.difference)),
-                 {{"written", Json::array({o.output})},
-                  {"contacts", problem.contacts().size()},
+                 {{"written", std::vector{o.output}},
+                  {"contacts", std::ssize(problem.contacts())},
                   {"dimension", problem.dimension()},
                   {"asymmetry", ToString(asymmetry.difference)}});
   return kExitDone;
@@ -66,7 +65,7 @@ int WriteReproducer(const FormatsVerb& o) {
   WriteText(o.output,
             ReproducerOf(named->finding, campaign.solver, o.reproducer, o.output == "-" ? "FILE" : file));
   SayWhatWasDone(o.output, o.json, fmt::format("{}: its first lines say how it runs\n", o.output),
-                 {{"written", Json::array({o.output})}, {"rounded", 0}, {"largest_change", "0"}});
+                 {{"written", std::vector{o.output}}, {"rounded", 0}, {"largest_change", "0"}});
   return kExitDone;
 }
 
@@ -80,7 +79,7 @@ int Export(const FormatsVerb& o) {
   if (report.rounded > 0)
     text += fmt::format(", by {:.2g} of their value at most", ToDouble(report.largest_change));
   SayWhatWasDone(o.output, o.json, text + "\n",
-                 {{"written", Json::array({o.output})},
+                 {{"written", std::vector{o.output}},
                   {"rounded", report.rounded},
                   {"largest_change", ToString(report.largest_change)}});
   return kExitDone;

@@ -9,7 +9,6 @@
 #include "cli/command_line.h"
 #include "cli/narration/listed.h"
 #include "corpus/exit_code.h"
-#include "corpus/json.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {

@@ -16,7 +16,6 @@
 #include "cli/narration/outcome_text.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/units/finish.h"
 #include "search/units/signature.h"
@@ -125,25 +124,25 @@ int RunMinimize(const MinimizeVerb& o) {
   const Minimized minimized = Minimize(file.problem, options);
   const Simplicity after = SimplicityOf(minimized.problem);
   file.problem = minimized.problem;
-  file.origin = Json{{"parent", file.name}, {"minimized", true}};
-  if (file.scene) (*file.origin)["scene"] = kSceneOfParent;
-  file.scene.reset();
+  file.origin = {{"parent", file.name}, {"minimized", true}};
+  if (file.scene) file.origin.Add({{"scene", kSceneOfParent}});
+  file.scene = {};
   file.name += "-minimized";
   file.expect = {{whole_grid ? "*" : PolicyName(policy), std::string(Name(options.keep))}};
   WriteText(o.output, Print(file));
   const auto size = [](const Simplicity& s) {
-    return Json{{"contacts", s.contacts}, {"rows", s.rows}, {"nonzeros", s.nonzeros}, {"bits", s.bits}};
+    return SharedJson{{"contacts", s.contacts}, {"rows", s.rows}, {"nonzeros", s.nonzeros}, {"bits", s.bits}};
   };
   std::ostream& out = o.output == "-" ? std::cerr : std::cout;
   const std::string loop =
       IsLoop(options.keep) ? EndOfMinimized(file.problem, published) : "";  // under the first policy
   if (o.json) {
-    out << JsonText({{"keep", keep},
-                     {"before", size(before)},
-                     {"after", size(after)},
-                     {"candidates", minimized.candidates},
-                     {"accepted", minimized.accepted},
-                     {"says", loop}})
+    out << JsonText(SharedJson{{"keep", keep},
+                               {"before", size(before)},
+                               {"after", size(after)},
+                               {"candidates", minimized.candidates},
+                               {"accepted", minimized.accepted},
+                               {"says", loop}})
         << "\n";
   } else {
     out << Folded(fmt::format("{}: {}, {}, {}; was {}, {}, {}. Tried {}, took {}.\n", keep,

@@ -20,7 +20,6 @@
 
 #include "corpus/descriptor.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "search/units/known_signatures.h"
 
@@ -160,14 +159,14 @@ std::string NightLog::Line(const SearchProgress& progress) const {
 
 // ---- Commands --------------------------------------------------------------------------------
 
-Json ToJson(const Finding& finding) {
+SharedJson ToJson(const Finding& finding) {
   const auto embedded = [&finding](const std::string& text) {
-    return text.empty() ? Json() : ParseJson(text, finding.signature);
+    return text.empty() ? SharedJson() : SharedJson(JsonPlace(text, finding.signature).json());
   };
   return {{"signature", finding.signature},
           {"kind", finding.kind},
           {"grave", IsGrave(finding.kind)},
-          {"known", KnownAs(finding.signature)},
+          {"known", std::string(KnownAs(finding.signature))},
           {"unit", finding.unit},
           {"index", finding.index},
           {"generator", finding.generator},

@@ -52,7 +52,7 @@ class NightLog {
 void RunOnFinding(const std::string& command, const std::string& store, const Finding& finding);
 
 // What is stored of a finding, as JSON.
-Json ToJson(const Finding& finding);
+SharedJson ToJson(const Finding& finding);
 
 }  // namespace stiction
 

@@ -5,13 +5,12 @@
 #include "cli/narration/published_ends.h"
 #include "cli/version.h"
 #include "corpus/input_error.h"
-#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/record/digest.h"
 
 namespace stiction {
 
-Playable PlayableOf(const Wanted& wanted, const ProblemFile& file, const Json& picture,
+Playable PlayableOf(const Wanted& wanted, const ProblemFile& file, const SharedJson& picture,
                     const Solution& solution, const std::optional<InexactAnswer>& over_intervals,
                     const std::string& source, const std::string& command) {
   return {PageOfRun(wanted, file, source, picture, solution, over_intervals),
@@ -28,7 +27,7 @@ std::optional<Playable> PlayFinding(const ProblemFile& file, const std::string& 
   try {
     const Request request = PathRequestOf(wanted, file.problem, file.name);
     const Solution solution = SolveAsked(file.problem, request, file.name);
-    return PlayableOf(wanted, file, nullptr, solution, OverIntervals(file.problem, request, solution.outcome()),
+    return PlayableOf(wanted, file, {}, solution, OverIntervals(file.problem, request, solution.outcome()),
                       file.name, command + " --html OUT");
   } catch (const InputError&) {
     return std::nullopt;

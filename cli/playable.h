@@ -16,7 +16,7 @@ namespace stiction {
 
 // `solution`: that of what is wanted; `picture`: of its scene, or null; `source`: in errors. InputError for a
 // run of more steps than a page has room for.
-Playable PlayableOf(const Wanted& wanted, const ProblemFile& file, const Json& picture,
+Playable PlayableOf(const Wanted& wanted, const ProblemFile& file, const SharedJson& picture,
                     const Solution& solution, const std::optional<InexactAnswer>& over_intervals,
                     const std::string& source, const std::string& command);
 

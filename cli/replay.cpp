@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "certify/exact/answer_json.h"
 #include "certify/request/request.h"
 #include "certify/request/solve_in.h"
 #include "cli/command_line.h"
@@ -114,16 +115,17 @@ void WriteMovingPicture(const ReplayOptions& o, const Request& request, const Pr
                         const Solution& solution) {
   constexpr std::size_t kMostStills = 200;
   constexpr double kSeconds = 1.1;
-  const Json picture = PictureBeside(file, o.file);
-  if (picture.is_null())
+  const SharedJson picture = PictureBeside(file, o.file);
+  if (!picture)
     throw InputError(o.file, "--svg", "a problem without its scene",
                      "a scene; --html makes a page of any problem");
   const FollowedRun run = Followed(request, file, solution);
-  const bool loops = run.replay["outcome"] == "cycle";
-  const std::int64_t start = loops ? run.replay["start"].get<std::int64_t>() : 0;
+  const Json& replay = run.replay;
+  const bool loops = replay["outcome"] == "cycle";
+  const std::int64_t start = loops ? replay["start"].get<std::int64_t>() : 0;
   std::vector<Still> stills;
-  for (std::size_t k = 0; k < run.replay["pivots"].size(); ++k) {
-    const Json &pivot = run.replay["pivots"][k], &told = run.narration.told[k];
+  for (std::size_t k = 0; k < replay["pivots"].size(); ++k) {
+    const Json &pivot = replay["pivots"][k], &told = run.narration.told[k];
     if (told["group"].get<std::int64_t>() <= start) continue;
     Still& still = stills.emplace_back();
     for (const Json& f : pivot["f"])
@@ -136,7 +138,7 @@ void WriteMovingPicture(const ReplayOptions& o, const Request& request, const Pr
     throw InputError(o.file, "--svg", fmt::format("a run of {} steps", stills.size()),
                      fmt::format("1 to {}; --html makes a page of more", kMostStills));
   const std::string title = loops ? fmt::format("{}: {}, again and again", file.name,
-                                                Counted(run.replay["period"].get<std::int64_t>(), "drive"))
+                                                Counted(replay["period"].get<std::int64_t>(), "drive"))
                                   : fmt::format("{}: {}", file.name, run.end);
   WriteText(o.svg, MovingPicture(picture, title, stills, kSeconds));
 }

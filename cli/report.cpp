@@ -137,7 +137,7 @@ int ReportStore(const ReportVerb& o) {
     throw InputError(fmt::format(
         "{}: found a search that tests a solver, expected --text or --json: it has no pages", o.store));
   std::string text;
-  Json written = Json::array();
+  std::vector<std::string> written;
   if (!o.folder.empty()) {
     const auto aside = WriteReport(store, o.folder, OccupiedIf(o.replace),
                                    {{o.benches.begin(), o.benches.end()},
@@ -189,7 +189,7 @@ int ReportBenches(const ReportVerb& o) {
   extras.benches = {o.benches.begin(), o.benches.end()};
   extras.frontiers = KnownFrontiers();
   TellAside(WriteMeasured(o.folder, OccupiedIf(o.replace), extras));
-  SayWhatWasDone("", o.json, o.folder + "/index.html\n", {{"written", Json::array({o.folder})}});
+  SayWhatWasDone("", o.json, o.folder + "/index.html\n", {{"written", std::vector{o.folder}}});
   return kExitDone;
 }
 

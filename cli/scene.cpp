@@ -109,7 +109,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
       explained.push_back(line);
     }
   }
-  SayWhatWasDone(o.output, o.json, text, {{"problems", written}, {"explained", explained}});
+  SayWhatWasDone(o.output, o.json, text, Json{{"problems", written}, {"explained", explained}});
   return kExitDone;
 }
 
@@ -327,6 +327,13 @@ std::string MotionText(const SceneIn<Kind, double>& scene, std::vector<BodyMotio
   return text;
 }
 
+// By the names of their table.
+Json StatisticsToJson(const SimulationStatistics& statistics) {
+  Json json = Json::object();
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+  return json;
+}
+
 template <class Kind>
 void WriteSummary(const SimulationIn<Kind>& simulation, const std::vector<BodyMotion>& motions,
                   const Drift& worst, const SimulateCommand& o) {
@@ -337,13 +344,13 @@ void WriteSummary(const SimulationIn<Kind>& simulation, const std::vector<BodyMo
   const std::string animation = (fs::path(o.output) / "animation.html").string();
   text += fmt::format("worst drift of joints {:.3g}, overlap {:.3g} m\n{}{}\n", worst.joints, worst.overlap,
                       MotionText(simulation.scene(), motions), animation);
-  SayWhatWasDone(
-      o.output, o.json, text,
-      {{"written", Json::array({o.output})},
-       {"animation", animation},
-       {"statistics", StatisticsToJson(simulation.statistics())},
-       {"worst_drift", {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}},
-       {"motion", MotionsToJson(simulation.scene(), motions)}});
+  SayWhatWasDone(o.output, o.json, text,
+                 Json{{"written", Json::array({o.output})},
+                      {"animation", animation},
+                      {"statistics", StatisticsToJson(simulation.statistics())},
+                      {"worst_drift",
+                       {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}},
+                      {"motion", MotionsToJson(simulation.scene(), motions)}});
 }
 
 template <class Kind>

@@ -102,7 +102,7 @@ const std::atomic<bool>& Interruption() {
   return interrupted;
 }
 
-void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object) {
+void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const SharedJson& object) {
   std::ostream& out = output == "-" ? std::cerr : std::cout;
   out << (json ? JsonText(object) + "\n" : Folded(text));
 }

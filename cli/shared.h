@@ -18,7 +18,7 @@
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
 #include "corpus/formats/read_problem.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/plain_text.h"
 #include "corpus/progress_bar.h"
 #include "corpus/record/problem_file.h"
@@ -53,14 +53,6 @@ void TellAside(const std::filesystem::path& aside);
 // itself. SIGHUP stays ignored where it is (nohup).
 const std::atomic<bool>& Interruption();
 
-// What has a table of counters (ForEachField), by their names.
-template <class S>
-Json StatisticsToJson(const S& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
-  return json;
-}
-
 // Text for people on standard output, in lines that fit the terminal.
 template <class... Args>
 void Tell(fmt::format_string<Args...> text, Args&&... args) {
@@ -69,7 +61,7 @@ void Tell(fmt::format_string<Args...> text, Args&&... args) {
 
 // What a verb did that writes a file, as text or, with --json, as an object: on standard output, or on standard
 // error where that file stands there (`output` is "-").
-void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const Json& object);
+void SayWhatWasDone(const std::string& output, bool json, const std::string& text, const SharedJson& object);
 
 // What FILE is, in help.
 inline constexpr const char* kFileHelp = "a problem, in any form that is read";

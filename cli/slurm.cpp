@@ -16,7 +16,6 @@
 #include "cli/shared.h"
 #include "cli/slurm.sh_in.h"
 #include "corpus/atomic_file.h"
-#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/text_template.h"
 #include "search/campaign.h"
@@ -69,7 +68,7 @@ int RunSlurm(const SlurmVerb& o) {
   const std::string submit = o.folder + "/submit.sh";
   SayWhatWasDone(
       o.folder, o.json, submit + "\n",
-      {{"written", Json::array({o.folder})}, {"submit", submit}, {"shards", o.shards}, {"units", units}});
+      {{"written", std::vector{o.folder}}, {"submit", submit}, {"shards", o.shards}, {"units", units}});
   return kExitDone;
 }
 

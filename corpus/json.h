@@ -18,10 +18,17 @@ namespace stiction {
 Json NumberToJson(double x);
 inline Json InJson(const Rational& x) { return ToString(x); }
 inline Json InJson(double x) { return NumberToJson(x); }
+inline const Json& InJson(const SharedJson& x) { return x; }
 template <class Numbers>
 Json ListJson(const Numbers& numbers) {
   Json json = Json::array();
   for (const auto& x : numbers) json.push_back(InJson(x));
+  return json;
+}
+template <class Matrix>
+Json RowsJson(const Matrix& A) {
+  Json json = Json::array();
+  for (int i = 0; i < A.rows(); ++i) json.push_back(ListJson(A.row(i)));
   return json;
 }
 

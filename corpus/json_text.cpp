@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "corpus/grouped.h"
 #include "corpus/input_file.h"
 #include "corpus/json.h"
 #include "corpus/rational.h"
@@ -183,6 +184,23 @@ Json ParseJson(std::string_view text, const std::string& source) {
   return builder.TakeDocument();
 }
 
+SharedJson::SharedJson() : SharedJson(Json()) {}
+SharedJson::SharedJson(std::initializer_list<JsonMember> members) {
+  Json json = Json::object();
+  for (const auto& [key, value] : members)
+    std::visit([&json, &name = key](const auto& x) { json[name] = x; }, value);
+  value_ = std::make_shared<const Json>(std::move(json));
+}
+SharedJson::SharedJson(const Json& value) : value_(std::make_shared<const Json>(value)) {}
+SharedJson::SharedJson(Json&& value) : value_(std::make_shared<const Json>(std::move(value))) {}
+SharedJson::operator bool() const { return !value_->is_null(); }
+
+void SharedJson::Add(const SharedJson& members) {
+  Json sum = *value_;
+  sum.update(*members);
+  value_ = std::make_shared<const Json>(std::move(sum));
+}
+
 std::string ReadText(const std::filesystem::path& file) { return ReadInput(file, kMostInputBytes); }
 
 std::string JsonText(const Json& value, int indent) {
@@ -214,6 +232,22 @@ std::string Shortened(const std::string& text, std::size_t most) {
 
 std::string Shown(const Json& value) { return Shortened(JsonText(value)); }
 
+std::string PlainValue(const Json& json, bool grouped, std::string_view separator) {
+  if (json.is_string()) return json.get<std::string>();
+  if (grouped && json.is_number_integer()) return Grouped(json.get<std::int64_t>());
+  if (!json.is_array()) return JsonText(json);
+  std::vector<std::string> parts;
+  for (const Json& element : json) parts.push_back(PlainValue(element, grouped));
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+std::vector<std::pair<std::string, std::string>> PlainValues(const Json& object, bool grouped) {
+  std::vector<std::pair<std::string, std::string>> values;
+  if (!object.is_object()) return values;
+  for (const auto& [key, value] : object.items()) values.emplace_back(key, PlainValue(value, grouped));
+  return values;
+}
+
 std::string MemberPath(const std::string& path, const std::string& key) {
   if (!IsWord(key)) return path + "[" + Shown(key) + "]";
   return (path.empty() ? "" : path + ".") + Shortened(key);
@@ -223,8 +257,17 @@ std::string ElementPath(const std::string& path, std::size_t index) {
   return fmt::format("{}[{}]", path, index);
 }
 
+JsonPlace::JsonPlace(std::string_view text, const std::string& source)
+    : document_(std::make_shared<const Json>(ParseJson(text, source))), json_(*document_), source_(source) {}
+
 void JsonPlace::Refuse(const std::string& found, const std::string& expected) const {
   throw InputError(source_, path_.empty() ? "$" : path_, found, expected);
+}
+
+bool JsonPlace::IsNull() const { return json_.is_null(); }
+
+bool JsonPlace::HasFormat(std::string_view format, bool unsaid) const {
+  return json_.is_object() && (json_.contains("format") ? json_["format"] == format : unsaid);
 }
 
 void JsonPlace::RequireObject() const {
@@ -262,6 +305,20 @@ JsonPlace JsonPlace::Child(const std::string& key, const Json& value) const {
   return JsonPlace(value, source_, MemberPath(path_, key));
 }
 
+std::vector<std::pair<std::string, JsonPlace>> JsonPlace::Members() const {
+  RequireObject();
+  std::vector<std::pair<std::string, JsonPlace>> members;
+  for (const auto& [key, value] : json_.items()) members.emplace_back(key, Child(key, value));
+  return members;
+}
+
+void JsonPlace::RequireFormat(const std::string& format, int version) const {
+  const std::string expected = '"' + format + '"', number = std::to_string(version);
+  const JsonPlace found = Required("format", expected);
+  if (found.Text(expected) != format) found.Refuse(expected);
+  Required("version", number).Integer(version, version, number);
+}
+
 std::size_t JsonPlace::Size(const std::string& expected) const {
   if (!json_.is_array()) Refuse(expected);
   return json_.size();
@@ -284,6 +341,16 @@ std::int64_t JsonPlace::Integer(std::int64_t least, std::int64_t most, const std
   const std::int64_t value = json_.get<std::int64_t>();
   if (value < least || value > most) Refuse(expected);
   return value;
+}
+
+double JsonPlace::Number(const std::string& expected) const {
+  if (!json_.is_number()) Refuse(expected);
+  return json_.get<double>();
+}
+
+bool JsonPlace::Truth(const std::string& expected) const {
+  if (!json_.is_boolean()) Refuse(expected);
+  return json_.get<bool>();
 }
 
 void Faults::Add(std::string message) {

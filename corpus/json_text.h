@@ -10,11 +10,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "corpus/input_error.h"
@@ -22,6 +25,30 @@
 namespace stiction {
 
 using Json = nlohmann::ordered_json;
+
+class SharedJson;
+using JsonMember =
+    std::pair<std::string, std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
+                                        std::vector<std::string>, SharedJson>>;
+
+// A value that is handed on: copies share it, and who neither reads nor makes more than a flat object of it
+// needs no json.h. A reference to what a temporary one holds dangles.
+class SharedJson {
+ public:
+  SharedJson();                                           // null
+  SharedJson(std::initializer_list<JsonMember> members);  // an object
+  SharedJson(const Json& value);
+  SharedJson(Json&& value);
+  operator const Json&() const { return *value_; }
+  const Json& operator*() const { return *value_; }
+  const Json* operator->() const { return value_.get(); }
+  explicit operator bool() const;  // whether it is not null
+  // Adds the members of an object to this one or to null; other copies stay as they are.
+  void Add(const SharedJson& members);
+
+ private:
+  std::shared_ptr<const Json> value_;
+};
 
 // Arrays and objects within each other, the document included.
 inline constexpr std::size_t kMaxJsonDepth = 100;
@@ -50,6 +77,11 @@ std::string Shown(const Json& value);
 // `text` cut to `most` bytes, never inside a UTF-8 character.
 std::string Shortened(const std::string& text, std::size_t most = 60);
 
+// A value in plain words: texts without quotes, elements of arrays behind ", ", integers `grouped` or not.
+std::string PlainValue(const Json& json, bool grouped = false, std::string_view separator = ", ");
+// The members of an object, in the same words; none of what is no object.
+std::vector<std::pair<std::string, std::string>> PlainValues(const Json& object, bool grouped = false);
+
 // Paths as errors write them: `contacts[0].mu`, `expect["ties=contacts"]`. The empty path is the document.
 std::string MemberPath(const std::string& path, const std::string& key);
 std::string ElementPath(const std::string& path, std::size_t index);
@@ -60,6 +92,8 @@ class JsonPlace {
  public:
   JsonPlace(const Json& json, const std::string& source, std::string path)
       : json_(json), source_(source), path_(std::move(path)) {}
+  // The document that ParseJson reads; this place and its copies keep it, the places in it do not.
+  JsonPlace(std::string_view text, const std::string& source);
 
   const Json& json() const { return json_; }
   const std::string& source() const { return source_; }
@@ -68,13 +102,20 @@ class JsonPlace {
   // Found is the value itself.
   [[noreturn]] void Refuse(const std::string& expected) const { Refuse(Shown(json_), expected); }
 
+  bool IsNull() const;
+
   // Objects.
   void RequireObject() const;
+  // Whether it is one whose `format` is this, or, if `unsaid`, has none.
+  bool HasFormat(std::string_view format, bool unsaid = false) const;
   // All unknown keys are told at once.
   void AllowKeys(const std::vector<std::string>& keys) const;
   JsonPlace Required(const std::string& key, const std::string& expected) const;
   std::optional<JsonPlace> Optional(const std::string& key) const;
   JsonPlace Child(const std::string& key, const Json& value) const;
+  std::vector<std::pair<std::string, JsonPlace>> Members() const;
+  // Of a file whose keys another format or version would not have.
+  void RequireFormat(const std::string& format, int version = 1) const;
 
   // Arrays.
   std::size_t Size(const std::string& expected) const;
@@ -83,8 +124,11 @@ class JsonPlace {
   const std::string& Text(const std::string& expected) const;
   // An integer literal from `least` to `most`; 1.0 and true are none.
   std::int64_t Integer(std::int64_t least, std::int64_t most, const std::string& expected) const;
+  double Number(const std::string& expected) const;
+  bool Truth(const std::string& expected = "true or false") const;
 
  private:
+  std::shared_ptr<const Json> document_;  // of the root of a text
   const Json& json_;
   const std::string& source_;
   std::string path_;

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <utility>
 
-#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -176,14 +175,6 @@ std::string TextTable::Part(std::size_t first, std::size_t last, const std::vect
     text += Folded(line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
   }
   return text;
-}
-
-std::string PlainValue(const Json& json) {
-  if (json.is_string()) return json.get<std::string>();
-  if (!json.is_array()) return JsonText(json);
-  std::vector<std::string> parts;
-  for (const Json& element : json) parts.push_back(PlainValue(element));
-  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string ShellWord(const std::string& word) {

@@ -60,9 +60,6 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;  // the header first
 };
 
-// A value of a definition: texts without quotes, elements of arrays behind ", ".
-std::string PlainValue(const Json& json);
-
 // A word as a shell reads it back.
 std::string ShellWord(const std::string& word);
 

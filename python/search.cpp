@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "cli/version.h"
-#include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/store/finding_words.h"

@@ -10,7 +10,7 @@
 
 #include "corpus/input_error.h"
 #include "corpus/input_file.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "reports/page/page.h"
 #include "reports/papers/latex.h"
 #include "reports/pictures/finding_picture.h"
@@ -21,15 +21,6 @@
 
 namespace stiction {
 namespace {
-
-// What was searched, as stiction search reads it; the definition as it stands if that is no JSON object.
-std::string CampaignFile(const CampaignIdentity& identity) {
-  Json campaign = ToldDefinition(identity);
-  const Json policies = Json::parse(identity.policies, nullptr, false);
-  if (!campaign.is_object()) return identity.definition + "\n";
-  if (policies.is_array()) campaign["policies"] = policies;
-  return JsonText(campaign, 1) + "\n";
-}
 
 // To the first in the order of interest alone; but the simplest loop, which the page shows, comes before all.
 void LeaveFilesTo(std::vector<Discovery>& discoveries, std::int64_t most) {
@@ -73,17 +64,17 @@ const Discovery* PlayedOf(const std::vector<Discovery>& discoveries) {
 }
 
 // The data of the player; null without one.
-Json WritePlayer(ReportFiles& folder, const std::vector<Discovery>& discoveries, const ReportExtras& extras) {
+SharedJson WritePlayer(ReportFiles& folder, const std::vector<Discovery>& discoveries,
+                       const ReportExtras& extras) {
   const Discovery* const played = PlayedOf(discoveries);
-  if (played == nullptr || !extras.play) return nullptr;
+  if (played == nullptr || !extras.play) return {};
   const Finding& finding = *played->representative;
   const ProblemFile file =
       ParseProblem(finding.minimized.empty() ? finding.problem : finding.minimized, finding.signature);
   std::optional<Playable> playable = extras.play(file, finding.policy, played->files.problem);
-  if (!playable) return nullptr;
+  if (!playable) return {};
   if (const auto& run = played->minimized ? played->minimized : played->found) {
-    playable->data["looping"] = run->grid.Loops();
-    playable->data["policies"] = run->grid.Total();
+    playable->data.Add({{"looping", run->grid.Loops()}, {"policies", run->grid.Total()}});
   }
   playable->origin.report = "index.html";
   folder.Write("replay.html", ViewerPage(file.name + ", step by step", playable->data, playable->origin));
@@ -154,7 +145,7 @@ std::filesystem::path WriteReport(const Store& store, const std::filesystem::pat
   whole.Write("work.csv",
               ToCsv(WorkTable(content.totals.work)));  // not among the sums: equal searches differ in it alone
   folder.Write("citation.bib", Citation(store));
-  folder.Write("campaign.json", CampaignFile(content.identity));
+  folder.Write("campaign.json", CampaignText(content.identity));
   if (content.since) WriteTables(folder, "", {SinceTable(*content.since, content.discoveries)});
   WriteMeasures(folder, extras);
   if (extras.latex) {

@@ -3,7 +3,6 @@
 
 #include <iterator>
 
-#include "corpus/json.h"
 #include "reports/html/template.h"
 #include "reports/viewer_template.h"
 

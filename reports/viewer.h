@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
@@ -23,7 +23,7 @@ struct ViewerOrigin {
 
 // What a page plays.
 struct Playable {
-  Json data;
+  SharedJson data;
   ViewerOrigin origin;
 };
 

@@ -173,7 +173,9 @@ const FormOf<Campaign> kOptimizerForm = {
 
 const FormOf<Campaign> kParentsForm = {
     "[object+]",
-    [](const JsonPlace& list, Campaign& campaign) { campaign.parents = ReadList(list, CandidateFromJson); },
+    [](const JsonPlace& list, Campaign& campaign) {
+      campaign.parents = ReadList(list, [](const JsonPlace& parent) { return CandidateFromJson(parent); });
+    },
     [](const Campaign& campaign) {
       return campaign.parents.empty()
                  ? Json()
@@ -218,12 +220,8 @@ Json FieldsOf(const Campaign& campaign, FieldUse use, Json json = Json::object()
 }  // namespace
 
 Campaign ParseCampaign(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source);
-  const JsonPlace root(json, source, "");
-  root.RequireObject();
-  const JsonPlace format = root.Required("format", "\"stiction-campaign\"");
-  if (format.Text("\"stiction-campaign\"") != "stiction-campaign") format.Refuse("\"stiction-campaign\"");
-  root.Required("version", "1").Integer(1, 1, "1");
+  const JsonPlace root(text, source);
+  root.RequireFormat("stiction-campaign");
   Campaign campaign;
   Faults faults(source);
   ReadFields(kFields, root, campaign, faults, {"format", "version"});
@@ -304,14 +302,12 @@ Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source)
   Campaign campaign = ParseCampaign(identity.definition, source + ": definition");
   campaign.seed = identity.seed;
   // A store from before it was drawn by lot goes on as it began.
-  if (!ParseJson(identity.definition, source).contains("complete_every")) campaign.complete_every = 1;
+  if (!JsonPlace(identity.definition, source).Optional("complete_every")) campaign.complete_every = 1;
   const std::string place = source + ": policies";
-  const Json policies = ParseJson(identity.policies, place);
-  campaign.policies = ReadList(JsonPlace(policies, place, ""), ReadPolicy);
+  campaign.policies = ReadList(JsonPlace(identity.policies, place), ReadPolicy);
   if (!identity.remarks.empty()) {
     const std::string of_remarks = source + ": remarks";
-    const Json remarks = ParseJson(identity.remarks, of_remarks);
-    const JsonPlace root(remarks, of_remarks, "");
+    const JsonPlace root(identity.remarks, of_remarks);
     root.RequireObject();
     std::vector<FieldOf<Campaign>> told;
     std::ranges::copy_if(kFields, std::back_inserter(told),
@@ -327,7 +323,7 @@ Json DefinitionToJson(const Campaign& campaign) {
   return FieldsOf(campaign, FieldUse::kDefines, {{"format", "stiction-campaign"}, {"version", 1}});
 }
 
-Json ToJson(const Campaign& campaign) {
+SharedJson ToJson(const Campaign& campaign) {
   return FieldsOf(campaign, FieldUse::kRemark,
                   FieldsOf(campaign, FieldUse::kApart, DefinitionToJson(campaign)));
 }

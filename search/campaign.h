@@ -123,7 +123,7 @@ inline Surroundings SurroundingsOf(const Campaign& campaign) {
 Campaign CampaignOf(const CampaignIdentity& identity, const std::string& source);
 // Everything but the seed, the policies and remarks, canonical; and the whole, as a file.
 Json DefinitionToJson(const Campaign& campaign);
-Json ToJson(const Campaign& campaign);
+SharedJson ToJson(const Campaign& campaign);
 // Of a campaign file (cli/schema.h).
 std::string ShapeOfCampaign();
 CampaignIdentity IdentityOf(const Campaign& campaign);

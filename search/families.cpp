@@ -7,8 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "corpus/json.h"
-
 namespace stiction {
 namespace {
 
@@ -64,9 +62,9 @@ std::string FamiliesText(const Store& store, const std::string& file) {
                      Named(families.were_not));
 }
 
-Json FamiliesToJson(const Store& store) {
+SharedJson FamiliesToJson(const Store& store) {
   const Families families = FamiliesOf(store, CampaignOf(store.identity(), "summary"));
-  Json missing = Json::array();
+  std::vector<std::string> missing;
   for (const auto& [generator, sizes] : families.were_not)
     for (const int contacts : sizes) missing.push_back(fmt::format("{} {}", generator, contacts));
   return {{"tried", families.tried}, {"of", families.of}, {"not_reached", std::move(missing)}};

@@ -27,7 +27,7 @@ Families FamiliesOf(const Store& store, const Campaign& campaign);
 std::string FamiliesText(const Store& store, const std::string& file);
 
 // {tried, of, not_reached: ["bodies 2", ...]}
-Json FamiliesToJson(const Store& store);
+SharedJson FamiliesToJson(const Store& store);
 
 }  // namespace stiction
 

@@ -89,7 +89,7 @@ constexpr ToldOf<S> kSeed = {"seed", "integer", "", [](const S& s) -> Json { ret
 constexpr ToldOf<S> kUnits = {"units", "integer", "", [](const S& s) -> Json { return s.totals.units; }};
 constexpr ToldOf<S> kFamilies = {"families", "{tried: integer, of: integer, not_reached: [text]}",
                                  "generators at numbers of contacts",
-                                 [](const S& s) { return FamiliesToJson(s.store); }};
+                                 [](const S& s) -> Json { return FamiliesToJson(s.store); }};
 constexpr ToldOf<S> kFinished = {"finished", "integer", "",
                                  [](const S& s) -> Json { return s.totals.finished; }};
 constexpr ToldOf<S> kPending = {"pending", "integer", "", [](const S& s) -> Json { return s.totals.pending; }};
@@ -242,11 +242,11 @@ std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign) {
 
 ProblemFile BestFile(const Elite& elite, const Campaign& campaign) {
   ProblemFile file = FileOf(elite.candidate, "best-" + campaign.objective);
-  (*file.origin)["objective"] = campaign.objective;
+  file.origin.Add({{"objective", campaign.objective}});
   return file;
 }
 
-Json SummaryToJson(const Store& store) {
+SharedJson SummaryToJson(const Store& store) {
   const Campaign campaign = CampaignOf(store.identity(), "summary");
   Json summary;
   if (!campaign.objective.empty()) {
@@ -284,8 +284,8 @@ std::string OptimizedText(const Store& store, const std::string& file) {
       file, Counted(yield.evaluations, "candidate"), Counted(summed.totals.units, "unit"), campaign.seed,
       objective.name, objective.sign > 0 ? "to be high" : "to be low", objective.help, campaign.optimizer,
       Counted(yield.confirmations, "exact run"), Counted(yield.denied, "value"));
-  const Json remarks = RemarksOf(store.identity());
-  for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
+  for (const auto& [name, value] : PlainValues(RemarksOf(store.identity())))
+    text += fmt::format("  {}: {}\n", name, value);
   for (const BestLine& best : BestLines(store))
     text += fmt::format("  {:18} {}, mu = {}: {}\n", best.generator, Counted(best.contacts, "contact"), best.mu,
                         best.value);

@@ -25,7 +25,7 @@ struct BestLine {
 // Empty for a search without an objective.
 std::vector<BestLine> BestLines(const Store& store);
 
-Json SummaryToJson(const Store& store);
+SharedJson SummaryToJson(const Store& store);
 // Of what it gives (cli/schema.h): of random problems, of a search with an objective; and of processor times.
 std::string ShapeOfSummary();
 std::string ShapeOfOptimized();

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/rational.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/kinds.h"
@@ -60,19 +60,14 @@ void RequireCertificate(const Witness& witness, const char* what, const std::str
                         const ExactProblem& problem) {
   if (text.empty()) return;
   const std::string source = witness.place() + ": " + what;
-  const Json json = ParseJson(text, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(text, source);
   root.RequireObject();
   root.AllowKeys({"format", "version", "claim", "problem", "witness"});
-  const JsonPlace format = root.Required("format", "\"stiction-certificate\"");
-  if (format.Text("\"stiction-certificate\"") != "stiction-certificate")
-    format.Refuse("\"stiction-certificate\"");
-  root.Required("version", "1").Integer(1, 1, "1");
+  root.RequireFormat("stiction-certificate");
   root.Required("claim", "a claim").Text("a claim");
   root.Required("witness", "a witness");
-  root.Required("problem", "a problem");
-  const std::string digest =
-      ProblemDigest(ProblemFromJson(json["problem"], source, "problem", /*strict=*/true));
+  const JsonPlace stated = root.Required("problem", "a problem");
+  const std::string digest = ProblemDigest(ProblemFromJson(stated.json(), source, "problem", /*strict=*/true));
   const std::string expected = ProblemDigest(problem);
   witness.Require(digest == expected, what, "the certificate of " + digest, expected);
 }
@@ -86,35 +81,30 @@ void RequireRunFacts(const JsonPlace& facts, std::int64_t contacts) {
   if (!IsOutcome(outcome.Text("an outcome"))) outcome.Refuse("an outcome");
   for (const char* key : {"start", "period", "steps"})
     facts.Required(key, "a count").Integer(0, kMost, "a count");
-  const JsonPlace grid = facts.Required("grid", "policies by outcome");
-  grid.RequireObject();
-  for (const auto& [name, count] : grid.json().items()) {
-    if (!IsOutcome(name)) grid.Child(name, count).Refuse(name, "an outcome");
-    grid.Child(name, count).Integer(0, kMost, "a count");
+  for (const auto& [name, count] : facts.Required("grid", "policies by outcome").Members()) {
+    if (!IsOutcome(name)) count.Refuse(name, "an outcome");
+    count.Integer(0, kMost, "a count");
   }
-  if (const auto safe = facts.Optional("safe"); safe && !safe->json().is_null() && !safe->json().is_boolean())
-    safe->Refuse("true, false or null");
+  if (const auto safe = facts.Optional("safe"); safe && !safe->IsNull()) safe->Truth("true, false or null");
   const JsonPlace existence = facts.Required("existence", "what is known of a solution");
   existence.RequireObject();
   existence.AllowKeys({"claim", "method", "pieces", "folds", "descents"});
   const JsonPlace claim = existence.Required("claim", "a claim or null");
-  if (!claim.json().is_null()) claim.Text("a claim or null");
+  if (!claim.IsNull()) claim.Text("a claim or null");
 }
 
 // Of a solver under test.
 void RequireSolverFacts(const Witness& witness, const Finding& finding, bool has_minimized) {
   const std::string source = witness.place() + ": facts";
-  const Json json = ParseJson(finding.facts, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(finding.facts, source);
   root.RequireObject();
   root.AllowKeys({"library", "found", "minimized", "alone", "scene"});
-  if (const auto library = root.Optional("library"); library && !library->json().is_boolean())
-    library->Refuse("true or false");
+  if (const auto library = root.Optional("library")) library->Truth();
   root.Required("found", "facts of the problem as found").RequireObject();
   const auto alone = root.Optional("alone"), small = root.Optional("minimized");
   witness.Require(alone.has_value() == finding.done, "facts", alone ? "those of a finished finding" : "others",
                   "whether its problem alone shows it, of a finished finding and only there");
-  if (alone && !alone->json().is_boolean()) alone->Refuse("true or false");
+  if (alone) alone->Truth();
   witness.Require(small.has_value() == has_minimized, "facts", small ? "those of a minimized problem" : "none",
                   "those of a minimized problem where there is one, and only there");
   if (const auto scene = root.Optional("scene")) CandidateFromJson(*scene);
@@ -129,8 +119,7 @@ void RequireFacts(const Witness& witness, const Finding& finding, const ExactPro
   if (finding.facts.empty())
     return witness.Require(!finding.done, "facts", "none", "those of a finished finding");
   const std::string source = witness.place() + ": facts";
-  const Json json = ParseJson(finding.facts, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(finding.facts, source);
   root.RequireObject();
   root.AllowKeys({"found", "minimized", "disagreement", "answers", "ipopt"});
   if (const auto ipopt = root.Optional("ipopt")) {

@@ -7,6 +7,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/safe.h"
+#include "certify/claims/witness.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/json.h"
@@ -112,18 +113,18 @@ Answer<Rational> AnswerBy(std::string_view method, Outcome outcome, ExactVector 
   return answer;
 }
 
-Json AnswersToJson(const Answers& answers) {
+SharedJson AnswersToJson(const Answers& answers) {
   Json json = Json::array();
   for (const Answer<Rational>& answer : answers.methods) {
     Json entry = {{"method", answer.method}, {"outcome", Name(answer.outcome)}};
-    if (answer.outcome == Outcome::kSolved) entry["f"] = VectorToJson(answer.f);
+    if (answer.outcome == Outcome::kSolved) entry["f"] = ListJson(answer.f);
     json.push_back(std::move(entry));
   }
   if (!answers.modes) return json;
   Json solutions = Json::array();
   for (const WordSolution& solution : answers.modes->solutions) {
     const Json word = WordToJson(solution.word);
-    solutions.push_back({{"modes", word}, {"f", VectorToJson(solution.f)}, {"unique", solution.unique}});
+    solutions.push_back({{"modes", word}, {"f", ListJson(solution.f)}, {"unique", solution.unique}});
   }
   json.push_back({{"method", "enumerate"},
                   {"complete", answers.modes->end == EnumerationEnd::kComplete},

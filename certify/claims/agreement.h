@@ -48,7 +48,7 @@ struct Disagreement {
 // it is `complete` or `lemke`; an enumeration that is not complete says nothing but its solutions.
 std::optional<Disagreement> FindDisagreement(const ExactProblem& problem, const Answers& answers);
 
-Json AnswersToJson(const Answers& answers);
+SharedJson AnswersToJson(const Answers& answers);
 
 // What is compared of a method, f if it solved.
 Answer<Rational> AnswerBy(std::string_view method, Outcome outcome, ExactVector f = {});

@@ -18,12 +18,6 @@
 
 namespace stiction {
 
-Json VectorToJson(const ExactVector& values) {
-  Json json = Json::array();
-  for (const Rational& value : values) json.push_back(ToString(value));
-  return json;
-}
-
 namespace {
 
 // The check of the claim, which the report names from now on.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corpus/exact_problem.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "solver/problem/solution.h"
 
 namespace stiction {
@@ -18,9 +18,10 @@ struct ExactRun;  // certify/exact/exact.h
 // ---- Making. Each returns a certificate that CheckCertificate accepts. -----------------------
 
 // Requires: f is a solution (FindViolation is empty); otherwise InternalError.
-Json SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
+SharedJson SolutionCertificate(const ExactProblem& problem, const ExactProblem::Vector& f);
 // Requires: dimension 3, FindViolation is empty by Coulomb's law up to this bound; otherwise InternalError.
-Json CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f, const Rational& bound);
+SharedJson CoulombCertificate(const ExactProblem& problem, const ExactProblem::Vector& f,
+                              const Rational& bound);
 // `symmetric` or `not-symmetric`.
 Json SymmetryCertificate(const ExactProblem& problem);
 // `psd` or `not-psd`. Of an asymmetric matrix only `not-psd` can be certified: otherwise InputError.
@@ -43,7 +44,6 @@ Json CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& po
 Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names);
 // The outer state that recurs.
 Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names);
-Json VectorToJson(const ExactProblem::Vector& values);
 
 // ---- Checking --------------------------------------------------------------------------------
 
@@ -53,7 +53,7 @@ struct CheckReport {
   std::string reason;        // why it was rejected: JSON path, found, expected
   bool is_too_dear = false;  // rejected for the work that it asks for, not for what it says
   std::string digest;        // of the problem (corpus/record/digest.h), as far as it could be read
-  Json facts;                // of an accepted certificate: policies, start, period, ...
+  SharedJson facts;          // of an accepted certificate: policies, start, period, ...
 };
 
 // A certificate comes from anywhere; no honest one has come near these, nor near kMostJsonDepth and

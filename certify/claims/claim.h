@@ -15,7 +15,7 @@
 #include "certify/claims/claim_answer.h"
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/factors.h"
 #include "solver/problem/options.h"
 
@@ -39,7 +39,7 @@ struct Claim {
   std::string_view proves = {};  // in words, of solutions; empty for what speaks of something else
   bool negative = false;         // whether it says that another claim is false
   // The certificate whose witness are factors of the problem; null where they show nothing.
-  Json (*by_factors)(const ExactProblem&, const ExactFactors&) = nullptr;
+  SharedJson (*by_factors)(const ExactProblem&, const ExactFactors&) = nullptr;
 
   // By factors, of a problem that has some and where they show it, otherwise by `certify`, which is not null.
   ClaimAnswer Decide(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,
@@ -53,7 +53,7 @@ struct ClaimRows {
 };
 
 // Of the problem alone; `Make` as for ByCertificate.
-template <Json (*Make)(const ExactProblem&)>
+template <auto* Make>
 ClaimAnswer Alone(const ExactProblem& problem, const Request&, const std::vector<Policy>&,
                   const EnumerationWatch&) {
   return ByCertificate(Make(problem));

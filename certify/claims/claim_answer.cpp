@@ -9,6 +9,7 @@
 
 #include "certify/claims/claims.h"
 #include "corpus/grouped.h"
+#include "corpus/json.h"
 
 namespace stiction {
 namespace {
@@ -45,14 +46,14 @@ ClaimState PolicyCounts::State() const {
   return so + open < asked ? ClaimState::kDisproved : ClaimState::kNotDecided;
 }
 
-ClaimAnswer ByCertificate(Json found, const std::string& why_none) {
+ClaimAnswer ByCertificate(SharedJson found, const std::string& why_none) {
   ClaimAnswer answer;
-  if (!found.is_object()) {
-    answer.reason = found.is_string() ? found.get<std::string>() : why_none;
+  if (!found->is_object()) {
+    answer.reason = found->is_string() ? found->get<std::string>() : why_none;
     return answer;
   }
   const std::vector<Claim> all = AllClaims();
-  const Claim* row = FindClaim(all, found["claim"].get<std::string>());
+  const Claim* row = FindClaim(all, found->at("claim").get<std::string>());
   answer.state = row != nullptr && row->negative ? ClaimState::kDisproved : ClaimState::kProved;
   answer.certificate = std::move(found);
   return answer;
@@ -74,7 +75,7 @@ std::string PoliciesSentence(const PolicyCounts& counts, std::string_view does, 
   return text;
 }
 
-Json ToJson(const ClaimAnswer& answer, std::string_view claim) {
+SharedJson ToJson(const ClaimAnswer& answer, std::string_view claim) {
   Json json = {{"asked", claim}, {"state", Name(answer.state)}, {"certificate", answer.certificate}};
   if (!answer.reason.empty()) json["reason"] = answer.reason;
   if (const auto& counts = answer.policies) {

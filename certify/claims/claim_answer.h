@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
@@ -37,7 +37,7 @@ struct PolicyCounts {
 
 struct ClaimAnswer {
   ClaimState state = ClaimState::kNotDecided;
-  Json certificate;                      // null where there is none
+  SharedJson certificate;                // null where there is none
   std::string reason;                    // in words; empty where the certificate says it all
   std::optional<PolicyCounts> policies;  // of a claim of runs
   std::string_view method = "none";      // of existence, what decided it: complete, fast, lemke, enumerate
@@ -45,13 +45,13 @@ struct ClaimAnswer {
 
 // Of a maker that returns a certificate of the claim or of its negation, or, where it has none, null or a text
 // that says why.
-ClaimAnswer ByCertificate(Json found, const std::string& why_none = "");
+ClaimAnswer ByCertificate(SharedJson found, const std::string& why_none = "");
 
 // "1,320 of 1,536 policies loop; 216 end in solved." `does`, `do`: "loops", "loop".
 std::string PoliciesSentence(const PolicyCounts& counts, std::string_view does, std::string_view plural);
 
 // {asked, state, certificate, reason?, policies?: {asked, so, certified, otherwise, example?}}
-Json ToJson(const ClaimAnswer& answer, std::string_view claim);
+SharedJson ToJson(const ClaimAnswer& answer, std::string_view claim);
 
 // Whether the certificate of an answer as JSON is of the claim or of its negation: not so where it is of some
 // policies only.

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "corpus/input_error.h"
-#include "corpus/json.h"
 
 namespace stiction {
 
@@ -24,13 +23,14 @@ std::vector<Claim> AllClaims() {
 ClaimAnswer Claim::Decide(const ExactProblem& problem, const Request& request,
                           const std::vector<Policy>& policies, const ExactFactors* factors,
                           const EnumerationWatch& watch) const {
-  Json found = factors != nullptr && by_factors != nullptr ? by_factors(problem, *factors) : Json();
-  return found.is_null() ? certify(problem, request, policies, watch) : ByCertificate(std::move(found));
+  const bool tries = factors != nullptr && by_factors != nullptr;
+  const SharedJson found = tries ? by_factors(problem, *factors) : SharedJson();
+  return found ? ByCertificate(found) : certify(problem, request, policies, watch);
 }
 
-Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view name,
-                  const Request& request, const std::vector<Policy>& policies, const ExactFactors* factors,
-                  const EnumerationWatch& watch) {
+SharedJson CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view name,
+                        const Request& request, const std::vector<Policy>& policies,
+                        const ExactFactors* factors, const EnumerationWatch& watch) {
   std::vector<std::string_view> names;
   for (const Claim& claim : AllClaims()) {
     if (claim.certify == nullptr) continue;

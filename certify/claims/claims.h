@@ -18,9 +18,9 @@ std::vector<Claim> AllClaims();
 
 // The answer to a claim, as JSON (claim_answer.h, Claim::Decide). InputError for a name that is not in the
 // table, and, by its place in `source`, for a problem of which the claim is not made.
-Json CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view claim,
-                  const Request& request, const std::vector<Policy>& policies = {Policy{}},
-                  const ExactFactors* factors = nullptr, const EnumerationWatch& watch = {});
+SharedJson CertifyClaim(const ExactProblem& problem, const std::string& source, std::string_view claim,
+                        const Request& request, const std::vector<Policy>& policies = {Policy{}},
+                        const ExactFactors* factors = nullptr, const EnumerationWatch& watch = {});
 
 }  // namespace stiction
 

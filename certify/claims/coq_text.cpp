@@ -13,6 +13,7 @@
 #include "certify/claims/by_factors.h"
 #include "certify/claims/witness.h"
 #include "corpus/input_error.h"
+#include "corpus/json.h"
 #include "corpus/record/digest.h"
 #include "solver/problem/options.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corpus/exact_problem.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 

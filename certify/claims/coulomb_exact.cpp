@@ -37,6 +37,7 @@
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
 #include "certify/exact/properties.h"
+#include "corpus/json.h"
 #include "corpus/record/sparse_matrix.h"
 #include "corpus/rounded.h"
 #include "solver/problem/gate.h"
@@ -589,15 +590,14 @@ ExactMatrix ShortInverse(const Eigen::MatrixXd& inverse, int digits) {
 
 Json BoxWitness(const Layout& layout, const FixedForces& fixed, const ExactVector& x,
                 const ExactMatrix& inverse, int places) {
-  Json modes = Json::array(), given = Json::array(), rows = Json::array();
+  Json modes = Json::array(), given = Json::array();
   for (const Behavior behavior : layout.behaviors) modes.push_back(kBehaviors[static_cast<int>(behavior)]);
   for (const auto& [row, force] : fixed)
-    given.push_back({{"row", row}, {"f", ToString(force.f)}, {"weights", VectorToJson(force.weights)}});
-  for (int i = 0; i < inverse.rows(); ++i) rows.push_back(VectorToJson(inverse.row(i).transpose()));
+    given.push_back({{"row", row}, {"f", ToString(force.f)}, {"weights", ListJson(force.weights)}});
   return {{"modes", modes},
           {"fixed", given},
-          {"x", VectorToJson(x)},
-          {"inverse", rows},
+          {"x", ListJson(x)},
+          {"inverse", RowsJson(inverse)},
           {"radius", ToString(Rational(1) / (mpz_class(1) << places))}};
 }
 
@@ -647,10 +647,10 @@ ClaimAnswer OfCoulombExact(const ExactProblem& problem, const Request& request, 
   try {
     return ByCertificate(CertifyBox(problem, request.limits));
   } catch (const NothingShown& nothing) {
-    Json found =
+    const SharedJson found =
         DecideExistence(problem, {.law = FrictionLaw::kCoulomb, .limits = request.limits}, watch).certificate;
-    const bool none = found.is_object() && found["claim"] == "no-solution";
-    return ByCertificate(none ? std::move(found) : Json(), nothing.why);
+    const bool none = found && found->at("claim") == "no-solution";
+    return ByCertificate(none ? found : SharedJson(), nothing.why);
   }
 }
 

@@ -74,7 +74,7 @@ Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& n
 }
 
 Json CycleStateToJson(const ExactRun& run, const std::vector<std::string>& names) {
-  Json state = {{"sets", SetsToJson(run.sets, names)}, {"f", VectorToJson(run.f)}};
+  Json state = {{"sets", SetsToJson(run.sets, names)}, {"f", ListJson(run.f)}};
   if (run.policy.resume == Resume::kRound && run.last_driven_contact >= 0) {
     state["contact"] = run.last_driven_contact + 1;
   }
@@ -96,8 +96,8 @@ Json RunToJson(const Policy& policy, const RunInSpace& run) {
                   {"word", run.word}};
   if (run.IsBox()) {
     witness["charts"] = run.charts;
-    witness["centre"] = VectorToJson(run.centre);
-    witness["radii"] = VectorToJson(run.radii);
+    witness["centre"] = ListJson(run.centre);
+    witness["radii"] = ListJson(run.radii);
   }
   return witness;
 }
@@ -382,7 +382,7 @@ Json CheckCounterexample(const ExactProblem& problem, const Json& witness) {
 
 // Of which policies the certificate speaks, where these are not all; of one policy how its run goes on.
 void TellCertified(ClaimAnswer& answer) {
-  if (!answer.certificate.is_object()) return;
+  if (!answer.certificate) return;
   const std::vector<Policy> named = CertifiedPolicies(answer.certificate);
   PolicyCounts& counts = *answer.policies;
   counts.certified = static_cast<std::int64_t>(named.size());
@@ -421,10 +421,10 @@ ClaimAnswer AnswerInSpace(const char* claim, const ExactProblem& problem, const 
   ClaimAnswer answer = AnswerOfEnds(ends, verb, state);
   answer.certificate = CertificateInSpace(claim, problem, PoliciesOf(ends, state), limits, prove);
   // A certificate in space is of one policy.
-  if (answer.state == ClaimState::kProved && (answer.certificate.is_null() || answer.policies->asked > 1)) {
+  if (answer.state == ClaimState::kProved && (!answer.certificate || answer.policies->asked > 1)) {
     answer.state = ClaimState::kNotDecided;
     answer.reason += ", as intervals say";
-    if (answer.certificate.is_null()) answer.reason += "; no certificate of it was found";
+    if (!answer.certificate) answer.reason += "; no certificate of it was found";
   }
   if (ends.size() == 1 && answer.state == ClaimState::kDisproved)
     answer.certificate = OppositeInSpace(problem, ends.front(), limits);
@@ -489,13 +489,14 @@ ClaimAnswer OfCounterexample(const ExactProblem& problem, const Request& request
   Json runs = CyclesToJson(problem, ends, request.limits);
   if (runs.empty()) return answer;
   const ClaimAnswer existence = DecideExistence(problem, request, watch);
-  if (existence.certificate.is_object() && existence.certificate["claim"] == "no-solution")
-    return ByCertificate(existence.certificate);  // as where contacts slide
-  if (existence.certificate.is_null() || existence.certificate["claim"] != "solution-exists")
-    return ByCertificate(nullptr, existence.reason.empty() ? "no solution was found"
-                                                           : "no solution was found: " + existence.reason);
+  const SharedJson& solution = existence.certificate;
+  if (solution && solution->at("claim") == "no-solution")
+    return ByCertificate(solution);  // as where contacts slide
+  if (!solution || solution->at("claim") != "solution-exists")
+    return ByCertificate(
+        {}, existence.reason.empty() ? "no solution was found" : "no solution was found: " + existence.reason);
   Json witness = FactorsToJson(*factors);
-  witness.update(existence.certificate["witness"]);
+  witness.update(solution->at("witness"));
   witness["runs"] = std::move(runs);
   answer.certificate = MakeCertificate("counterexample", problem, std::move(witness));
   TellCertified(answer);

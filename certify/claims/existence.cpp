@@ -45,23 +45,23 @@ std::string HowItEnded(const Enumeration& modes) {
 
 // ---- What an answer makes of the claim -------------------------------------------------------------
 
-ClaimAnswer DecidedBy(std::string_view method, Json certificate, const std::string& otherwise) {
+ClaimAnswer DecidedBy(std::string_view method, SharedJson certificate, const std::string& otherwise) {
   ClaimAnswer answer = ByCertificate(std::move(certificate), otherwise);
   if (answer.state != ClaimState::kNotDecided) answer.method = method;
   return answer;
 }
 
 ClaimAnswer ByForces(const ExactProblem& problem, const Answer<Rational>& answer) {
-  if (!answer.Solved()) return DecidedBy(answer.method, nullptr, HowItEnded(answer));
+  if (!answer.Solved()) return DecidedBy(answer.method, {}, HowItEnded(answer));
   if (!answer.bound) return DecidedBy(answer.method, SolutionCertificate(problem, answer.f), "");
   if (*answer.bound != 0)
     return DecidedBy(answer.method, CoulombCertificate(problem, answer.f, *answer.bound), "");
-  return DecidedBy(answer.method, nullptr,
+  return DecidedBy(answer.method, {},
                    std::string(answer.method) + ": forces without a bound on the angle of slip");
 }
 
 ClaimAnswer ByModes(const ExactProblem& problem, const Enumeration& modes) {
-  Json certificate;
+  SharedJson certificate;
   if (!modes.solutions.empty()) certificate = SolutionCertificate(problem, modes.solutions.front().f);
   if (modes.ProvesNoSolution()) certificate = NoSolutionCertificate(problem, modes);
   return DecidedBy("enumerate", std::move(certificate), HowItEnded(modes));
@@ -95,7 +95,7 @@ Runs<ClaimAnswer> RunsInSpace(const ExactProblem& problem, const Request& reques
       try {
         return ByForces(problem, SolveBy(method, problem, {.law = request.law, .limits = request.limits}));
       } catch (const RangeError& error) {  // Coulomb's law is solved over doubles before it is exactly
-        return DecidedBy(method.name, nullptr, std::string(method.name) + ": " + error.what());
+        return DecidedBy(method.name, {}, std::string(method.name) + ": " + error.what());
       }
     });
   }

@@ -26,15 +26,15 @@ Json HypothesisCertificate(const ExactProblem& problem) {
   if (IsSymmetric(problem)) {
     const auto range = DecideRange(problem.A, problem.b);
     if (const auto* x = std::get_if<ExactVector>(&range))
-      return MakeCertificate("h", problem, {{"y", VectorToJson(*x)}});
+      return MakeCertificate("h", problem, {{"y", ListJson(*x)}});
   }
   const auto decision = DecideHypothesis(problem);
   if (const auto* y = std::get_if<ExactVector>(&decision))
-    return MakeCertificate("h", problem, {{"y", VectorToJson(*y)}});
+    return MakeCertificate("h", problem, {{"y", ListJson(*y)}});
   const auto* obstacle = std::get_if<Obstacle>(&decision);
   if (obstacle == nullptr) return nullptr;
   return MakeCertificate("not-h", problem,
-                         {{"v", VectorToJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
+                         {{"v", ListJson(obstacle->x)}, {"value", ToString(obstacle->value)}});
 }
 
 Json ExistsCertificate(const ExactProblem& problem) {
@@ -124,8 +124,8 @@ constexpr char kHypothesis[] = "h", kExists[] = "exists";
 
 // The claim of this name, where the factors show (H).
 template <const char* kClaim>
-Json HypothesisByFactors(const ExactProblem& problem, const ExactFactors& factors) {
-  if (HasSlidingContact(problem) || FindDualConeViolation(problem, factors.c)) return nullptr;
+SharedJson HypothesisByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+  if (HasSlidingContact(problem) || FindDualConeViolation(problem, factors.c)) return {};
   return MakeCertificate(kClaim, problem, FactorsWitness(factors));
 }
 
@@ -141,9 +141,9 @@ ClaimAnswer OfExists(const ExactProblem& problem, const Request& request, const 
   constexpr std::size_t kFewContacts = 6;  // whose modes are all tried
   Json certificate = ExistsCertificate(problem);
   if (certificate.is_null() && problem.contacts.size() <= kFewContacts) {
-    Json found =
+    const SharedJson found =
         DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = request.limits}, watch).certificate;
-    if (found.is_object() && found["claim"] == "no-solution") certificate = std::move(found);
+    if (found && found->at("claim") == "no-solution") certificate = found;
   }
   return ByCertificate(std::move(certificate),
                        "the theorem does not speak of it: '--claim psd' and '--claim h' say what is missing; "

@@ -11,18 +11,9 @@
 #include "corpus/record/problem_file.h"
 
 namespace stiction {
-namespace {
-
-Json MatrixToJson(const ExactMatrix& matrix) {
-  Json rows = Json::array();
-  for (int i = 0; i < matrix.rows(); ++i) rows.push_back(VectorToJson(matrix.row(i).transpose()));
-  return rows;
-}
-
-}  // namespace
 
 Json FactorsToJson(const LdltFactors& factors) {
-  return {{"L", MatrixToJson(factors.L)}, {"D", VectorToJson(factors.D)}};
+  return {{"L", RowsJson(factors.L)}, {"D", ListJson(factors.D)}};
 }
 
 void RequireSymmetricToClaim(const ExactProblem& problem, const std::string& claim) {
@@ -45,8 +36,7 @@ namespace {
 
 Json ObstacleCertificate(const char* claim, const char* vector, const ExactProblem& problem,
                          const Obstacle& obstacle) {
-  return MakeCertificate(claim, problem,
-                         {{vector, VectorToJson(obstacle.x)}, {"value", ToString(obstacle.value)}});
+  return MakeCertificate(claim, problem, {{vector, ListJson(obstacle.x)}, {"value", ToString(obstacle.value)}});
 }
 
 // Of a matrix whose elimination takes minutes: what doubles find, and rationals confirm.
@@ -78,7 +68,7 @@ Json DefiniteCertificate(const ExactProblem& problem) {
 Json RangeCertificate(const ExactProblem& problem) {
   const auto decision = DecideRange(problem.A, problem.b);
   if (const auto* x = std::get_if<ExactVector>(&decision))
-    return MakeCertificate("in-range", problem, {{"x", VectorToJson(*x)}});
+    return MakeCertificate("in-range", problem, {{"x", ListJson(*x)}});
   return ObstacleCertificate("not-in-range", "y", problem, std::get<Obstacle>(decision));
 }
 
@@ -210,11 +200,11 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-Json SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+SharedJson SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
   return MakeCertificate("psd", problem, FactorsWitness(factors));
 }
 
-Json RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+SharedJson RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
   return IsInRangeByFactors(factors) ? MakeCertificate("in-range", problem, FactorsWitness(factors)) : Json();
 }
 

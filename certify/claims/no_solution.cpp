@@ -13,11 +13,11 @@
 #include "solver/problem/check.h"
 
 namespace stiction {
-Json NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration) {
+SharedJson NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration) {
   STICTION_CHECK(enumeration.ProvesNoSolution(), "a certificate of no solution needs a complete enumeration");
   Json prefixes = Json::array();
   for (const RefutedPrefix& refuted : enumeration.refuted) {
-    prefixes.push_back({{"modes", WordToJson(refuted.modes)}, {"y", VectorToJson(refuted.y)}});
+    prefixes.push_back({{"modes", WordToJson(refuted.modes)}, {"y", ListJson(refuted.y)}});
   }
   const Json witness = {{"prefixes", std::move(prefixes)}};
   const auto fault = FindFault(CheckNoSolution, problem, witness);

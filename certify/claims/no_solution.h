@@ -10,11 +10,12 @@
 #include <string>
 
 #include "certify/exact/enumerate.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
 // The certificate. Requires: enumeration.ProvesNoSolution(), of this problem; otherwise InternalError.
-Json NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration);
+SharedJson NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration);
 
 // A WitnessCheck (witness.h). Facts: words, prefixes.
 Json CheckNoSolution(const ExactProblem& problem, const Json& witness);

@@ -23,10 +23,10 @@ Json OfRest(const ExactProblem& problem) {
   if (problem.rows() > kQuickRows)
     return fmt::format("it has {} rows, and programs take {}", problem.rows(), kQuickRows);
   const Rest rest = DecideRest(problem);
-  if (rest.f) return MakeCertificate("rests", problem, {{"f", VectorToJson(*rest.f)}});
+  if (rest.f) return MakeCertificate("rests", problem, {{"f", ListJson(*rest.f)}});
   if (!rest.y) return "it hangs on a force at the edge of a friction cone";
   return MakeCertificate("cannot-rest", problem,
-                         {{"y", VectorToJson(*rest.y)}, {"value", ToString(problem.b.dot(*rest.y))}});
+                         {{"y", ListJson(*rest.y)}, {"value", ToString(problem.b.dot(*rest.y))}});
 }
 
 ExactVector ReadFactor(const ExactProblem& problem, const Json& witness, const char* name) {

@@ -15,19 +15,19 @@ namespace stiction {
 
 // ---- Making ------------------------------------------------------------------------------------
 
-Json SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
+SharedJson SolutionCertificate(const ExactProblem& problem, const ExactVector& f) {
   const auto violation = FindViolation(problem, f);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate("solution-exists", problem,
-                         {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}});
+                         {{"f", ListJson(f)}, {"a", ListJson(Accelerations(problem, f))}});
 }
 
-Json CoulombCertificate(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
+SharedJson CoulombCertificate(const ExactProblem& problem, const ExactVector& f, const Rational& bound) {
   const auto violation = FindViolation(problem, f, FrictionLaw::kCoulomb, bound);
   STICTION_CHECK(!violation, "a solution to certify is none: " + violation.value_or(""));
   return MakeCertificate(
       "coulomb-solution", problem,
-      {{"f", VectorToJson(f)}, {"a", VectorToJson(Accelerations(problem, f))}, {"bound", ToString(bound)}});
+      {{"f", ListJson(f)}, {"a", ListJson(Accelerations(problem, f))}, {"bound", ToString(bound)}});
 }
 
 // ---- Checking ----------------------------------------------------------------------------------
@@ -82,7 +82,7 @@ bool TheoremSpeaksOf(const ExactProblem& problem) {
 ClaimAnswer OfExistence(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
                         const EnumerationWatch& watch) {
   ClaimAnswer answer = DecideExistence(problem, request, watch);
-  if (!answer.certificate.is_null() || !TheoremSpeaksOf(problem)) return answer;
+  if (answer.certificate || !TheoremSpeaksOf(problem)) return answer;
   return ByCertificate(ExistsCertificate(problem), answer.reason + "; nor does the theorem speak of it");
 }
 

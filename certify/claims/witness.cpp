@@ -24,6 +24,12 @@ Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witnes
           {"witness", std::move(witness)}};
 }
 
+Json WordToJson(const ModeWord& word) {
+  Json json = Json::array();
+  for (const Mode mode : word) json.push_back(Name(mode));
+  return json;
+}
+
 void RequireKeys(const Json& json, const std::string& path, const std::set<std::string>& keys) {
   if (!json.is_object()) throw Rejected{path, Shown(json), "an object"};
   const std::string expected = fmt::format("{}", fmt::join(keys, ", "));

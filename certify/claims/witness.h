@@ -25,6 +25,7 @@ namespace stiction {
 
 // `stiction-certificate`, version 1, of this claim.
 Json MakeCertificate(const char* claim, const ExactProblem& problem, Json witness);
+Json WordToJson(const ModeWord& word);
 
 // ---- Reading -----------------------------------------------------------------------------------
 

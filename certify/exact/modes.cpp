@@ -4,7 +4,6 @@
 #include <array>
 
 #include "certify/exact/verify_solution.h"
-#include "corpus/json.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -32,12 +31,6 @@ std::span<const Mode> ModesOf(const Contact<Rational>& contact, int dimension) {
   if (contact.kind == ContactKind::kBilateral) return kBilateral;
   if (dimension == 2 && HasFrictionModes(contact)) return kFriction;
   return kOneSided;
-}
-
-Json WordToJson(const ModeWord& word) {
-  Json json = Json::array();
-  for (const Mode mode : word) json.push_back(Name(mode));
-  return json;
 }
 
 mpz_class Completions(const ExactProblem& problem, std::size_t length) {

@@ -40,7 +40,6 @@ enum class Mode : std::uint8_t { kHold, kBreak, kTouch, kStick, kSlipPlus, kSlip
 std::string_view Name(Mode mode);
 
 using ModeWord = std::vector<Mode>;  // one mode per contact, or for the first contacts: a prefix
-Json WordToJson(const ModeWord& word);
 
 // The modes of a contact, in the order of the search.
 std::span<const Mode> ModesOf(const Contact<Rational>& contact, int dimension = 2);

@@ -178,8 +178,8 @@ Json RunParts(const ExactProblem& problem, const std::vector<UncoupledPart>& par
   std::set<std::string_view> methods;
   Json certificate;
   for (const UncoupledPart& part : parts) {
-    ClaimAnswer existence = DecideExistence(part.problem, request);
-    certificate = std::move(existence.certificate);
+    const ClaimAnswer existence = DecideExistence(part.problem, request);
+    certificate = *existence.certificate;
     const bool is_solved = certificate.is_object() && certificate["claim"] == "solution-exists";
     if (!is_solved) methods.clear();
     methods.insert(existence.method);
@@ -282,7 +282,7 @@ Json FailedAssumptions(const AnyProblem& problem) {
     failed.push_back(std::move(row));
   };
   const auto by = [](const char* name, const Obstacle& shown) -> Json {
-    return {{name, VectorToJson(shown.x)}, {"value", ToString(shown.value)}};
+    return {{name, ListJson(shown.x)}, {"value", ToString(shown.value)}};
   };
   if (facts.asymmetry.difference != 0) add("symmetric", {{"i", facts.asymmetry.i}, {"j", facts.asymmetry.j}});
   if (facts.negative && problem.contacts().size() <= kWitnessContacts) {

@@ -8,7 +8,7 @@
 #include "certify/claims/claims.h"
 #include "certify/claims/policy_ends.h"
 #include "certify/request/entries.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 
 namespace stiction {
@@ -157,8 +157,9 @@ Solution SolveAsked(const AnyProblem& problem, const Request& request, const std
 
 // ---- Certificates ----
 
-Json CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
-                   const std::string& source, const ExactFactors* factors, const EnumerationWatch& watch) {
+SharedJson CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
+                         const std::string& source, const ExactFactors* factors,
+                         const EnumerationWatch& watch) {
   Request request = wanted.request;
   request.law = LawNamed(wanted.law, FrictionLaw::kCoulomb, problem.dimension, source, wanted.dashes);
   if (!wanted.law.empty() && claim != "existence")
@@ -173,10 +174,9 @@ CheckReport CheckText(const std::string& text, const std::string& source, const 
   if (text.size() > kMostBytesOfCertificate)
     throw InputError(source, "", fmt::format("{} bytes", text.size()),
                      fmt::format("a certificate of at most {}", kMostBytesOfCertificate));
-  const Json json = ParseJson(text, source);
-  const Json format = json.is_object() ? json.value("format", Json("stiction-problem")) : Json();
-  const bool is_problem = format == "stiction-problem" && !json.contains("claim");
-  if (!is_problem) return CheckCertificate(json, source, digest);
+  const JsonPlace root(text, source);
+  const bool is_problem = root.HasFormat("stiction-problem", true) && !root.Optional("claim");
+  if (!is_problem) return CheckCertificate(root.json(), source, digest);
   CheckReport report;
   report.reason = fmt::format(
       "found a problem, expected a certificate; stiction certify {} -o certificate.json writes one of it",

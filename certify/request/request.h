@@ -51,8 +51,9 @@ Solution SolveAsked(const AnyProblem& problem, const Request& request, const std
 // What became of the claim (certify/claims/claim_answer.h). Of what is wanted policy, or "*", law, of claim
 // existence in space alone, and the limits of the request are read. `factors`: of the problem, where it has
 // some.
-Json CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
-                   const std::string& source, const ExactFactors* factors, const EnumerationWatch& watch = {});
+SharedJson CertificateOf(const std::string& claim, const Wanted& wanted, const ExactProblem& problem,
+                         const std::string& source, const ExactFactors* factors,
+                         const EnumerationWatch& watch = {});
 
 // CheckCertificate of a text, which InputError refuses that is too long for one, or no JSON.
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest);

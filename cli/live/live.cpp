@@ -83,12 +83,11 @@ Json RunToJson(const JsonPlace& place) {
   std::vector<FollowedRun> runs = {Run(request, file)};
   request.method = "complete";
   if (method != request.method) runs.push_back(Run(request, file));
-  return {{"data", ReplayPageData(file, nullptr, runs)}};
+  return {{"data", ReplayPageData(file, {}, runs)}};
 }
 
 Json AnswerToJson(const std::string& request) {
-  const Json json = ParseJson(request, kRequest);
-  const JsonPlace place(json, kRequest, "");
+  const JsonPlace place(request, kRequest);
   const JsonPlace ask = place.Required("ask", "run or switches");
   const std::string& asked = ask.Text("run or switches");
   if (asked == "switches")

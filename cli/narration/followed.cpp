@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "certify/exact/answer_json.h"
 #include "certify/exact/exact.h"
 #include "cli/narration/narrate_text.h"
 #include "corpus/grouped.h"
@@ -119,7 +120,7 @@ Json ReplayToJson(const Request& asked, const ProblemFile& file, const Solution&
     return Json{{"f", ListJson(answer.first_f)}, {"a", ListJson(FirstAccelerations(file.problem, answer))}};
   };
   if (initial) json["initial"] = std::visit(first, solution.answer);
-  json["pivots"] = std::move(narration.pivots);
+  json["pivots"] = ListJson(narration.pivots);
   return json;
 }
 
@@ -129,13 +130,13 @@ FollowedRun Followed(const Request& asked, const ProblemFile& file, const Soluti
   run.narration = Narrate(asked.method, file, solution, {.vectors = true});
   run.end = EndOf(solution);
   run.replay = ReplayToJson(asked, file, solution, run.narration, true);
-  if (const std::size_t steps = run.replay["pivots"].size(); steps > kMostStepsOfPage)
+  if (const std::size_t steps = run.narration.pivots.size(); steps > kMostStepsOfPage)
     throw InputError(
         fmt::format("--html: found a run of {} steps, expected at most {}: --max-drives ends it earlier",
                     Grouped(static_cast<std::int64_t>(steps)), Grouped(kMostStepsOfPage)));
   const auto* exact = std::get_if<ExactAnswer>(&solution.answer);
-  if (asked.method == "baraff" && exact != nullptr)
-    run.partings = PartingsOf(file.problem, asked, exact->pivots);
+  const bool parts = asked.method == "baraff" && exact != nullptr;
+  run.partings = parts ? PartingsOf(file.problem, asked, exact->pivots) : Json::array();
   return run;
 }
 
@@ -168,9 +169,9 @@ Json ReadingsOf(const Json& told, const Policy& policy) {
 }
 
 Json RunToJson(const FollowedRun& run) {
-  Json told = run.narration.told;
-  if (run.replay.contains("policy")) {
-    const Policy policy = ParsePolicy(run.replay["policy"].get<std::string>());
+  Json told = ListJson(run.narration.told);
+  if (run.replay->contains("policy")) {
+    const Policy policy = ParsePolicy(run.replay->at("policy").get<std::string>());
     for (Json& step : told) {
       if (step["mark"] == "given up") step["readings"] = ReadingsOf(step, policy);
     }
@@ -189,13 +190,15 @@ Json RowNames(const ExactProblem& problem) {
 
 }  // namespace
 
-Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vector<FollowedRun>& runs) {
+SharedJson ReplayPageData(const ProblemFile& file, const SharedJson& picture,
+                          const std::vector<FollowedRun>& runs, bool every_policy) {
   Json data = {{"name", file.name},
                {"problem", ProblemToJson(file.problem)},
                {"rows", RowNames(file.problem)},
                {"picture", picture},
                {"runs", Json::array()}};
   for (const FollowedRun& run : runs) data["runs"].push_back(RunToJson(run));
+  if (every_policy) data["every_policy"] = true;
   return data;
 }
 

@@ -10,10 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "certify/exact/answer_json.h"
 #include "certify/exact/solve.h"
 #include "cli/narration/narrate.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/loop_sentence.h"
 
 namespace stiction {
@@ -36,21 +35,23 @@ Json ReplayToJson(const Request& asked, const ProblemFile& file, const Solution&
 
 struct FollowedRun {
   std::string title;
-  Json replay;          // as --step --json prints it
+  SharedJson replay;    // as --step --json prints it
   Narration narration;  // with vectors
   std::string end;      // how it ended, in words
   // Of the published algorithm over rationals in the plane: where the other readings of a switch leave its
   // path. One switch at a time, in table order: the first step at which the runs part, and how the other one
   // ends; values that leave the path nowhere are left out.
-  Json partings = Json::array();
+  SharedJson partings;
 };
 
 // A run for the viewer. InputError for one of more steps than a page has room for.
 FollowedRun Followed(const Request& asked, const ProblemFile& file, const Solution& solution);
 
 // Runs on one problem, as the viewer wants them: reports/web/data.md has the keys. `picture`:
-// reports/pictures/problem_picture.h, or null.
-Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vector<FollowedRun>& runs);
+// reports/pictures/problem_picture.h, or null; `every_policy`: that every one of the grid ends as the first
+// run.
+SharedJson ReplayPageData(const ProblemFile& file, const SharedJson& picture,
+                          const std::vector<FollowedRun>& runs, bool every_policy = false);
 
 }  // namespace stiction
 

@@ -7,7 +7,7 @@
 
 namespace stiction {
 
-Json MethodsToJson() {
+SharedJson MethodsToJson() {
   Json json = Json::array();
   for (const MethodFacts& facts : AllMethods()) {
     Json row = {{"name", facts.name},    {"title", facts.title},    {"source", facts.source},
@@ -22,7 +22,7 @@ Json MethodsToJson() {
   return json;
 }
 
-Json PoliciesToJson() {
+SharedJson PoliciesToJson() {
   Json rows = Json::array();
   for (const PolicySwitchRow& row : PolicySwitches()) {
     Json values = Json::array();

@@ -9,8 +9,8 @@
 namespace stiction {
 
 // What `methods --json` and `policies --json` print.
-Json MethodsToJson();
-Json PoliciesToJson();
+SharedJson MethodsToJson();
+SharedJson PoliciesToJson();
 
 }  // namespace stiction
 

@@ -5,10 +5,11 @@
 #define STICTION_CLI_NARRATION_NARRATE_H_
 
 #include <string>
+#include <vector>
 
 #include "certify/exact/solve.h"
 #include "cli/narration/outcome_text.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
@@ -21,11 +22,11 @@ struct Telling {
 };
 
 struct Narration {
-  std::string table;   // a line for each step
-  std::string steps;   // directions, forces, accelerations and sets as well
-  Json pivots;         // an object for each step
-  std::string before;  // how things stand before the first step
-  Json told;           // an object for each step, what a page shows of it (reports/web/data.md)
+  std::string table;               // a line for each step
+  std::string steps;               // directions, forces, accelerations and sets as well
+  std::vector<SharedJson> pivots;  // an object for each step
+  std::string before;              // how things stand before the first step
+  std::vector<SharedJson> told;    // an object for each step, what a page shows of it (reports/web/data.md)
 };
 
 // `file` must outlive the call. Scalar: Rational or double.

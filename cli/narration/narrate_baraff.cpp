@@ -45,7 +45,6 @@ class BaraffNarrator {
     narration.before = kinds + Beginning(kinds.empty());
     narration.table += MarkAfter(0);
     narration.steps = narration.before + MarkAfter(0);
-    narration.pivots = narration.told = Json::array();
     for (std::size_t k = 0; k < answer_.pivots.size(); ++k) {
       narration.pivots.push_back(ToJson(answer_.pivots[k]));
       if (how_.vectors) narration.told.push_back(ToldToJson(k));

@@ -66,7 +66,6 @@ class CompleteNarrator {
                                   "cells", "what happens");
     narration.before = fmt::format("Before the first piece f = {}.\n", List(answer_.first_f));
     narration.steps = narration.before;
-    narration.pivots = narration.told = Json::array();
     for (std::size_t k = 0; k < answer_.pivots.size(); ++k) Add(k, narration);
     return narration;
   }
@@ -198,7 +197,6 @@ Narration NarrateLemke(const ProblemFile&, const Answer<Scalar>& answer, const T
   Narration narration;
   narration.table =
       fmt::format("{:>5} {:>8} {:>8} {:>14} {:>14}\n", "pivot", "enters", "leaves", "length", "z0");
-  narration.pivots = narration.told = Json::array();
   for (const Pivot<Scalar>& pivot : answer.pivots) {
     const std::string leaving = pivot.leaving.empty() ? "(ray)" : pivot.leaving;
     narration.pivots.push_back(LemkePivotToJson(pivot, how.vectors));

@@ -21,8 +21,9 @@ bool EveryPolicyEndsSo(const ProblemFile& file, const Solution& solution, const 
 
 }  // namespace
 
-Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
-               const Solution& solution, const std::optional<InexactAnswer>& over_intervals) {
+SharedJson PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source,
+                     const SharedJson& picture, const Solution& solution,
+                     const std::optional<InexactAnswer>& over_intervals) {
   std::vector<FollowedRun> runs = {Followed(PathRequestOf(wanted, file.problem, source), file, solution)};
   if (over_intervals) runs[0].end += "; " + OverIntervalsText(*over_intervals);
   Wanted beside = wanted;
@@ -33,9 +34,7 @@ Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string&
     const Request request = PathRequestOf(beside, file.problem, source);
     runs.push_back(Followed(request, file, SolveAsked(file.problem, request, source)));
   }
-  Json data = ReplayPageData(file, picture, runs);
-  if (EveryPolicyEndsSo(file, solution, wanted.request.limits)) data["every_policy"] = true;
-  return data;
+  return ReplayPageData(file, picture, runs, EveryPolicyEndsSo(file, solution, wanted.request.limits));
 }
 
 }  // namespace stiction

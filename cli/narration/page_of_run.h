@@ -16,8 +16,9 @@ namespace stiction {
 // ReplayPageData of the run itself, with what intervals say of it, and beside it of complete driving.
 // `solution` is that of PathRequestOf(wanted), `picture` as PictureBeside (reports/pictures/problem_picture.h)
 // has it.
-Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source, const Json& picture,
-               const Solution& solution, const std::optional<InexactAnswer>& over_intervals);
+SharedJson PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string& source,
+                     const SharedJson& picture, const Solution& solution,
+                     const std::optional<InexactAnswer>& over_intervals);
 
 }  // namespace stiction
 

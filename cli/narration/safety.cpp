@@ -7,6 +7,7 @@
 #include "certify/claims/condition.h"
 #include "certify/claims/safe.h"
 #include "certify/claims/safety_threshold.h"
+#include "certify/claims/witness.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 
@@ -56,7 +57,7 @@ void AddCondition(const ExactProblem& problem, Json& result) {
   if (!bound) return;
   const auto mu = bound->SafeFriction();
   result["condition"] = {{"number", ToString(Rational(bound->most / bound->least))},
-                         {"scaling", VectorToJson(bound->scaling)},
+                         {"scaling", ListJson(bound->scaling)},
                          {"mu", mu ? Json(ToString(*mu)) : Json()}};
 }
 

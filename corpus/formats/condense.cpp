@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/json.h"
 #include "corpus/record/definite_block.h"
 
 namespace stiction {
@@ -71,9 +70,9 @@ std::optional<int> Eliminate(std::vector<SparseRow>& K, int count) {
 }  // namespace
 
 std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dimension,
-                                       std::vector<Contact<Rational>> contacts, Json& origin) {
+                                       std::vector<Contact<Rational>> contacts, ProblemFile& file) {
   if (auto factors = FactorsOf(equations, dimension, contacts)) {
-    origin["factors"] = "J = B', M, w = inv(M) f, c = w, of M v = B r + f, u = B'v + w";
+    file.origin.Add({{"factors", "J = B', M, w = inv(M) f, c = w, of M v = B r + f, u = B'v + w"}});
     return AnyProblem(*std::move(factors));
   }
   // Elimination of v from [M, -B, -f; B', 0, w].
@@ -95,7 +94,7 @@ std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dim
       if (first <= j && j < last) A[{i, j - first}] = value;
     }
   }
-  origin["condensed"] = "A = B' inv(M) B, over rationals";
+  file.origin.Add({{"condensed", "A = B' inv(M) B, over rationals"}});
   return AnyProblem(ExactEntries{dimension, std::move(contacts), ToEigen(A, rows, rows), std::move(b)});
 }
 

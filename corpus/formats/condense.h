@@ -23,10 +23,10 @@ struct GlobalEquations {
   ExactProblem::Vector f, w;
 };
 
-// The problem of these contacts, by its factors or by the entries of A; `origin` says how. Otherwise the row of
-// M whose pivot is zero: then it has no inverse, or is not definite.
+// The problem of these contacts, by its factors or by the entries of A; the origin of `file` says how.
+// Otherwise the row of M whose pivot is zero: then it has no inverse, or is not definite.
 std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dimension,
-                                       std::vector<Contact<Rational>> contacts, Json& origin);
+                                       std::vector<Contact<Rational>> contacts, ProblemFile& file);
 
 }  // namespace stiction
 

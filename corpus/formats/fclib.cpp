@@ -102,7 +102,7 @@ class FclibReader {
     const bool local = GroupOfProblem() == "fclib_local";
     group_ = local ? "/fclib_local" : "/fclib_global";
     problem_.dimension = Integer("spacedim", 2, 3);
-    file_of_.origin = {{"format", "fclib"}, {"storage", local ? "local" : "global"}};
+    file_of_.origin.Add({{"format", "fclib"}, {"storage", local ? "local" : "global"}});
     local ? Local() : Global();
     return std::move(file_of_);
   }
@@ -364,7 +364,7 @@ class FclibReader {
     Add(M, 0, equations.M);
     Add(H, 0, equations.B);
     Add(G, H.columns, equations.B);
-    const auto made = Condense(equations, problem_.dimension, std::move(problem_.contacts), *file_of_.origin);
+    const auto made = Condense(equations, problem_.dimension, std::move(problem_.contacts), file_of_);
     if (const int* row = std::get_if<int>(&made))
       Refuse(Path("M"), fmt::format("a zero pivot in row {}", *row), "a positive definite matrix");
     file_of_.problem = std::get<AnyProblem>(made);

@@ -142,7 +142,7 @@ ProblemFile ParsePublished(std::string text, const std::filesystem::path& file, 
     problem = ParseSiconos(text, kind, source);
   }
   problem.name = NameOf(file.stem());
-  (*problem.origin)["file"] = NameOf(file);
+  problem.origin.Add({{"file", NameOf(file)}});
   const bool is_small = problem.problem.factors() == nullptr && !StaysSparse(problem.problem);
   if (is_small) problem.problem = problem.problem.dense();
   return problem;

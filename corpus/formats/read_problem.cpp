@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/formats/formats.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/store/store.h"
 #include "scene/assemble.h"
@@ -107,8 +107,7 @@ bool LooksLikeJson(std::string_view text) {
 
 bool IsScene(std::string_view text, const std::string& source) {
   if (text.find("stiction-scene") == text.npos) return false;  // most are none, and are not parsed twice
-  const Json json = ParseJson(text, source);
-  return json.is_object() && json.value("format", Json()) == "stiction-scene";
+  return JsonPlace(text, source).HasFormat("stiction-scene");
 }
 
 // Of a scene that makes one problem.
@@ -129,7 +128,7 @@ std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& 
 
 AnyProblem InFactors(const ProblemFile& file) {
   if (file.problem.factors() != nullptr || !file.scene) return file.problem;
-  auto factors = FactorsOfScene(*file.scene, file.name);
+  auto factors = FactorsOfScene(file.scene, file.name);
   if (!factors || factors->rows() != file.problem.rows()) return file.problem;
   const AnyProblem in_factors = *std::move(factors);
   const ExactProblem &formed = in_factors, &given = file.problem;

@@ -78,9 +78,9 @@ ProblemFile ParseAs(SiconosKind kind, const std::string& text, const std::string
   ProblemFile file;
   file.problem = std::move(problem);
   const std::string remark = words.ExpectEnd();
-  file.origin = {{"format", kind == SiconosKind::kLcp ? "siconos-lcp" : "siconos-fc"},
-                 {"storage", matrix.storage()}};
-  if (!remark.empty()) (*file.origin)["remark"] = remark;
+  file.origin.Add(
+      {{"format", kind == SiconosKind::kLcp ? "siconos-lcp" : "siconos-fc"}, {"storage", matrix.storage()}});
+  if (!remark.empty()) file.origin.Add({{"remark", remark}});
   return file;
 }
 

@@ -11,7 +11,6 @@
 
 #include "corpus/formats/condense.h"
 #include "corpus/formats/siconos_words.h"
-#include "corpus/json.h"
 
 namespace stiction {
 namespace {
@@ -157,16 +156,12 @@ ExactProblem::Vector ReadVector(SiconosWords& words, int count, const char* name
   return numbers;
 }
 
-// What stands behind the numbers.
-void AddRemark(SiconosWords& words, Json& origin) {
-  const std::string remark = words.ExpectEnd();
-  if (!remark.empty()) origin["remark"] = remark;
-}
-
-ProblemFile FileOf(AnyProblem problem, Json origin) {
+// Where the numbers end; a remark may stand behind them.
+ProblemFile FileOf(const char* format, const std::string& storage, SiconosWords& words) {
   ProblemFile file;
-  file.problem = std::move(problem);
-  file.origin = std::move(origin);
+  file.origin.Add({{"format", format}, {"storage", storage}});
+  const std::string remark = words.ExpectEnd();
+  if (!remark.empty()) file.origin.Add({{"remark", remark}});
   return file;
 }
 
@@ -193,12 +188,12 @@ ProblemFile ParseGlobalFriction(SiconosWords& words) {
     if (mu[i] < 0) words.Refuse(ToString(mu[i]), fmt::format("mu[{}], a number >= 0", i));
     contacts.push_back({ContactKind::kStatic, mu[i], {}});
   }
-  Json origin = {{"format", "siconos-gfc"}, {"storage", M.storage()}};
-  AddRemark(words, origin);
-  const auto made = Condense(equations, dimension, std::move(contacts), origin);
+  ProblemFile file = FileOf("siconos-gfc", M.storage(), words);
+  const auto made = Condense(equations, dimension, std::move(contacts), file);
   if (const int* row = std::get_if<int>(&made))
     words.Refuse(fmt::format("an M with a zero pivot in row {}", *row), "a positive definite matrix");
-  return FileOf(std::get<AnyProblem>(made), std::move(origin));
+  file.problem = std::get<AnyProblem>(made);
+  return file;
 }
 
 // Equations are bilateral contacts, conditions are frictionless ones.
@@ -230,7 +225,7 @@ ProblemFile ParseMixed(SiconosWords& words) {
   const bool has_whole = words.Integer("M is given", 0, 1) == 1;
   const bool has_parts = words.Integer("A is given", 0, 1) == 1;
   const int n = words.Count("equations"), m = words.Count("conditions"), rows = n + m;
-  Json origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
+  std::string storage = "parts";
   if (has_whole) {
     std::vector<int> begins = {words.Integer("a begin", 0, 0)};
     while (begins.back() < rows) begins.push_back(words.Integer("a begin", begins.back() + 1, rows));
@@ -243,14 +238,15 @@ ProblemFile ParseMixed(SiconosWords& words) {
     SiconosMatrixReader M(words, &entries);
     M.Read({rows, rows});
     problem.A = ToEigen(entries, rows, rows);
-    origin["storage"] = M.storage();
+    storage = M.storage();
     problem.b = ReadVector(words, rows, "q");
     if (has_parts) words.SkipNumbers(Multiplied(words, rows, rows + 1));  // A, B, C, D, a, b: the same numbers
   } else {
     ReadParts(words, n, m, problem);
   }
-  AddRemark(words, origin);
-  return FileOf(std::move(problem), std::move(origin));
+  ProblemFile file = FileOf("siconos-mlcp", storage, words);
+  file.problem = std::move(problem);
+  return file;
 }
 
 ProblemFile ParseOlderMixed(SiconosWords& words) {
@@ -258,9 +254,9 @@ ProblemFile ParseOlderMixed(SiconosWords& words) {
   const int n = words.Count("equations"), m = words.Count("conditions");
   words.Integer("the number of rows", n + m, n + m);
   ReadParts(words, n, m, problem);
-  Json origin = {{"format", "siconos-mlcp"}, {"storage", "parts"}};
-  AddRemark(words, origin);
-  return FileOf(std::move(problem), std::move(origin));
+  ProblemFile file = FileOf("siconos-mlcp", "parts", words);
+  file.problem = std::move(problem);
+  return file;
 }
 
 // A kind stands before those that would take its files, too.

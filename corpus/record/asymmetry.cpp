@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "corpus/json.h"
-
 namespace stiction {
 
 Asymmetry LargestAsymmetry(const AnyProblem& problem) {
@@ -37,9 +35,9 @@ void Symmetrize(ProblemFile& file) {
   const Asymmetry largest = LargestAsymmetry(file.problem);
   if (largest.difference == 0) return;
   file.problem = Symmetrized(file.problem);
-  if (!file.origin) file.origin = Json::object();
-  (*file.origin)["symmetrized"] = {
+  const SharedJson symmetrized = {
       {"largest difference", ToString(largest.difference)}, {"i", largest.i}, {"j", largest.j}};
+  file.origin.Add({{"symmetrized", symmetrized}});
 }
 
 }  // namespace stiction

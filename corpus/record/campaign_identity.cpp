@@ -44,20 +44,28 @@ std::string Brief(const std::string& value) {
 
 }  // namespace
 
-Json JsonOrText(const std::string& text) {
+SharedJson JsonOrText(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
   return json.is_discarded() ? Json(text) : json;
 }
 
-Json RemarksOf(const CampaignIdentity& identity) {
+SharedJson RemarksOf(const CampaignIdentity& identity) {
   Json remarks = JsonOrText(identity.remarks);
   return remarks.is_object() ? remarks : Json::object();
 }
 
-Json ToldDefinition(const CampaignIdentity& identity) {
+SharedJson ToldDefinition(const CampaignIdentity& identity) {
   Json definition = JsonOrText(identity.definition);
-  if (definition.is_object()) definition.update(RemarksOf(identity));
+  if (definition.is_object()) definition.update(*RemarksOf(identity));
   return definition;
+}
+
+std::string CampaignText(const CampaignIdentity& identity) {
+  Json campaign = ToldDefinition(identity);
+  const Json policies = Json::parse(identity.policies, nullptr, false);
+  if (!campaign.is_object()) return identity.definition + "\n";
+  if (policies.is_array()) campaign["policies"] = policies;
+  return JsonText(campaign, 1) + "\n";
 }
 
 std::vector<CampaignDifference> DifferencesOf(const CampaignIdentity& a, const CampaignIdentity& b) {

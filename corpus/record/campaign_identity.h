@@ -5,9 +5,10 @@
 #define STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "corpus/json_text.h"
 
 namespace stiction {
 
@@ -26,10 +27,12 @@ struct CampaignIdentity {
 };
 
 // What JSON a text stands for; the text itself where it is none.
-nlohmann::ordered_json JsonOrText(const std::string& text);
+SharedJson JsonOrText(const std::string& text);
 // The remarks of a campaign, by name; and its definition with them, which is no object if it was damaged.
-nlohmann::ordered_json RemarksOf(const CampaignIdentity& identity);
-nlohmann::ordered_json ToldDefinition(const CampaignIdentity& identity);
+SharedJson RemarksOf(const CampaignIdentity& identity);
+SharedJson ToldDefinition(const CampaignIdentity& identity);
+// What was searched, as stiction search reads it; the definition as it stands if that is no JSON object.
+std::string CampaignText(const CampaignIdentity& identity);
 
 // What two campaigns differ in: "seed", "1", "2". Of a part that one has not its text is empty.
 struct CampaignDifference {

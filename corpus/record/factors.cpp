@@ -323,8 +323,7 @@ Json ToJson(const ExactFactors& factors) {
       if (of.value() != 0) entries.push_back(Json::array({i, of.col(), ToString(of.value())}));
   }
   for (const Block& block : BlocksOf(factors.M)) {
-    Json rows = Json::array();
-    for (int i = 0; i < block.rows(); ++i) rows.push_back(ListJson(block.row(i)));
+    Json rows = RowsJson(block);
     blocks.push_back(block.size() == 1 ? rows[0][0] : rows);
   }
   Json json = {{"J", {{"size", {J.rows(), J.cols()}}, {"entries", std::move(entries)}}},

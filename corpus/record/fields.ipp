@@ -44,8 +44,7 @@ void ReadField(const FieldOf<R>& field, const JsonPlace& place, R& record) {
     if constexpr (std::is_same_v<Value, FormOf<R>>) {
       value.read(place, record);
     } else if constexpr (std::is_same_v<Value, bool>) {
-      if (!place.json().is_boolean()) place.Refuse("true or false");
-      value = place.json().template get<bool>();
+      value = place.Truth();
     } else if constexpr (std::is_same_v<Value, std::string>) {
       value = place.Text(kLineExpected);
       if (!IsLine(value)) place.Refuse(kLineExpected);

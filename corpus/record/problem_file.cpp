@@ -371,19 +371,17 @@ std::string CanonicalPolicy(const std::string& text, const JsonPlace& place) {
 }
 
 std::map<std::string, std::string> ReadExpect(const JsonPlace& place) {
-  place.RequireObject();
   const std::string outcomes = fmt::format("one of {}", fmt::join(kOutcomeNames, ", "));
   std::map<std::string, std::string> expect;
   std::map<std::string, std::string> spelling;  // canonical policy -> as written
-  for (const auto& member : place.json().items()) {
-    const JsonPlace outcome = place.Child(member.key(), member.value());
+  for (const auto& [key, outcome] : place.Members()) {
     const std::string& name = outcome.Text(outcomes);
     if (std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name) == kOutcomeNames.end())
       outcome.Refuse(outcomes);
-    const auto [before, is_new] = spelling.emplace(CanonicalPolicy(member.key(), outcome), member.key());
+    const auto [before, is_new] = spelling.emplace(CanonicalPolicy(key, outcome), key);
     if (!is_new)
       outcome.Refuse("a duplicate key", "each policy once (it is " + Shown(before->second) + " too)");
-    expect[member.key()] = name;
+    expect[key] = name;
   }
   return expect;
 }
@@ -421,12 +419,6 @@ Json ContactToJson(const Contact<Rational>& contact, int dimension) {
   return json;
 }
 
-Json RowsToJson(const Matrix& A) {
-  Json json = Json::array();
-  for (int i = 0; i < A.rows(); ++i) json.push_back(ListJson(A.row(i)));
-  return json;
-}
-
 // Large, symmetric, and mostly zeros.
 bool IsBestSparse(const Matrix& A) {
   constexpr int kSmall = 64;
@@ -447,7 +439,7 @@ Json EntriesToJson(const Matrix& A) {
 
 Json MatrixToJson(const Matrix& A, int rows) {
   STICTION_CHECK(A.rows() == rows && A.cols() == rows, "A does not fit the contacts");
-  return IsBestSparse(A) ? EntriesToJson(A) : RowsToJson(A);
+  return IsBestSparse(A) ? EntriesToJson(A) : RowsJson(A);
 }
 
 // The same of any sparse matrix. An entry without its mirror stands beside a zero.
@@ -576,8 +568,7 @@ Rational ExactNumber(const JsonPlace& place, bool strict) {
 }
 
 ProblemFile ParseProblem(std::string_view text, const std::string& source, int most_rows) {
-  const Json json = ParseJson(text, source);
-  const JsonPlace place(json, source, "");
+  const JsonPlace place(text, source);
   Faults faults(source);
   ProblemFile file;
   file.problem = ProblemReader(false).Read(place, faults);
@@ -630,15 +621,15 @@ Json ProblemToJson(const ExactProblem& problem) {
 
 std::string_view Name(ContactKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
-Json ToJson(const ProblemFile& file) {
+SharedJson ToJson(const ProblemFile& file) {
   const Json problem = AnyProblemToJson(file.problem);
   Json json;
   for (const auto& member : problem.items()) {
     if (member.key() == "dimension") json["name"] = file.name;
     json[member.key()] = member.value();
   }
-  if (file.scene) json["scene"] = *file.scene;
-  if (file.origin) json["origin"] = *file.origin;
+  if (file.scene) json["scene"] = file.scene;
+  if (file.origin) json["origin"] = file.origin;
   if (!file.expect.empty()) json["expect"] = file.expect;
   return json;
 }

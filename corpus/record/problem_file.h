@@ -18,21 +18,20 @@
 
 #include <climits>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "corpus/exact_problem.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/factors.h"
 
 namespace stiction {
 
 struct ProblemFile {
   std::string name;
-  AnyProblem problem;                         // in the form that the file has it
-  std::optional<Json> scene;                  // any value, kept as it is
-  std::optional<Json> origin;                 // generator, seed, parent, what was rounded or symmetrized
+  AnyProblem problem;  // in the form that the file has it
+  SharedJson scene;    // any value, kept as it is
+  SharedJson origin;   // an object: generator, seed, parent, what was rounded or symmetrized
   std::map<std::string, std::string> expect;  // policy as written, or "*" for the grid -> outcome
 };
 
@@ -57,7 +56,7 @@ void RequireFewRows(const AnyProblem& problem, const std::string& source);
 // The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
 Json ProblemToJson(const ExactProblem& problem);
 // Everything.
-Json ToJson(const ProblemFile& file);
+SharedJson ToJson(const ProblemFile& file);
 // Everything as text. One contact and one row of A a line, so that a person can read it.
 std::string Print(const ProblemFile& file);
 

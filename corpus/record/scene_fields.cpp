@@ -91,13 +91,12 @@ void ReadInertia(const JsonPlace& place, Matrix3<Rational>& inertia) {
   if (!symmetric || I(0, 0) <= 0 || minor <= 0 || determinant <= 0) place.Refuse(expected);
 }
 
+Json SpinJson(const Rational& spin) { return ToString(spin); }
+Json SpinJson(const Vector3<Rational>& spin) { return ListJson(spin); }
+
 Json InertiaJson(const Rational& inertia) { return ToString(inertia); }
 
-Json InertiaJson(const Matrix3<Rational>& inertia) {
-  Json json = Json::array();
-  for (int i = 0; i < 3; ++i) json.push_back(NumbersJson(inertia.row(i)));
-  return json;
-}
+Json InertiaJson(const Matrix3<Rational>& inertia) { return RowsJson(inertia); }
 
 template <class Kind>
 typename BodyIn<Kind, Rational>::Inertia UniformInertia(const JsonPlace& place,
@@ -196,9 +195,9 @@ template ShapeInSpace<Rational> ReadShape<Space>(const JsonPlace&);
 template <class Kind>
 Json ShapeJson(const ShapeIn<Kind, Rational>& shape) {
   using Words = SceneWords<Kind>;
-  if (shape.IsRound()) return {{Words::kRound, ToString(shape.radius)}, {"center", NumbersJson(shape.center)}};
+  if (shape.IsRound()) return {{Words::kRound, ToString(shape.radius)}, {"center", ListJson(shape.center)}};
   Json corners = Json::array();
-  for (const auto& corner : shape.corners) corners.push_back(NumbersJson(corner));
+  for (const auto& corner : shape.corners) corners.push_back(ListJson(corner));
   return {{Words::kCornered, std::move(corners)}};
 }
 template Json ShapeJson(const BodyShape<Rational>&);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "scene/scene.h"
 
 namespace stiction {
@@ -73,18 +73,11 @@ auto ReadDirection(const JsonPlace& place) {
   return IsUnit(v) ? v : UnitVector(v);
 }
 
-template <class Numbers>
-Json NumbersJson(const Numbers& numbers) {
-  Json json = Json::array();
-  for (int i = 0; i < numbers.size(); ++i) json.push_back(ToString(numbers[i]));
-  return json;
-}
-
 // A spin or a moment.
 inline void ReadSpin(const JsonPlace& place, Rational& spin) { spin = ExactNumber(place); }
 inline void ReadSpin(const JsonPlace& place, Vector3<Rational>& spin) { spin = ReadVector<Space>(place); }
-inline Json SpinJson(const Rational& spin) { return ToString(spin); }
-inline Json SpinJson(const Vector3<Rational>& spin) { return NumbersJson(spin); }
+Json SpinJson(const Rational& spin);
+Json SpinJson(const Vector3<Rational>& spin);
 
 // ---- Rotations -------------------------------------------------------------------------------
 

@@ -22,17 +22,9 @@ constexpr int kSceneVersion = 1;
 // The dimension, from `least` to `most`. A file of another format or version has other keys: it is refused by
 // these alone.
 int ReadHeader(const JsonPlace& place, int least, int most) {
-  const std::string format = '"' + std::string(kSceneFormat) + '"', version = std::to_string(kSceneVersion);
-  const JsonPlace found = place.Required("format", format);
-  if (found.Text(format) != kSceneFormat) found.Refuse(format);
-  place.Required("version", version).Integer(kSceneVersion, kSceneVersion, version);
+  place.RequireFormat(std::string(kSceneFormat), kSceneVersion);
   const std::string dimension = least == most ? std::to_string(least) : "2 or 3";
   return static_cast<int>(place.Required("dimension", dimension).Integer(least, most, dimension));
-}
-
-bool ReadFlag(const JsonPlace& place) {
-  if (!place.json().is_boolean()) place.Refuse("true or false");
-  return place.json().get<bool>();
 }
 
 // Calls visit for each element of an array that may be missing.
@@ -103,7 +95,7 @@ BodyIn<Kind, Rational> ReadBody(const JsonPlace& place, Faults& faults) {
   faults.Try([&] { body.name = place.Required("name", "a name").Text("a name"); });
   Faults of_fixed(place.source()), of_shapes(place.source());
   of_fixed.Try([&] {
-    if (const auto fixed = place.Optional("fixed")) body.fixed = ReadFlag(*fixed);
+    if (const auto fixed = place.Optional("fixed")) body.fixed = fixed->Truth();
   });
   of_shapes.Try([&] {
     ForEachOf(place, "shapes",
@@ -261,7 +253,7 @@ class SceneReader {
     PairRule<Rational> rule;
     Pair(place, rule);
     if (const auto mu = place.Optional("mu")) rule.mu = NotNegative(*mu);
-    if (const auto collide = place.Optional("collide")) rule.collide = ReadFlag(*collide);
+    if (const auto collide = place.Optional("collide")) rule.collide = collide->Truth();
     return rule;
   }
 
@@ -276,16 +268,16 @@ Json BodyJson(const BodyIn<Kind, Rational>& body) {
   Json json = {{"name", body.name}};
   if (body.fixed) {
     json["fixed"] = true;
-    json["acceleration"] = NumbersJson(body.acceleration);
+    json["acceleration"] = ListJson(body.acceleration);
   } else {
     json["mass"] = ToString(body.mass);
     json["inertia"] = InertiaJson(body.inertia);
-    json["force"] = NumbersJson(body.force);
+    json["force"] = ListJson(body.force);
     json["torque"] = SpinJson(body.torque);
   }
-  json["position"] = NumbersJson(body.position);
-  json["rotation"] = NumbersJson(body.rotation);
-  json["velocity"] = NumbersJson(body.velocity);
+  json["position"] = ListJson(body.position);
+  json["rotation"] = ListJson(body.rotation);
+  json["velocity"] = ListJson(body.velocity);
   json["spin"] = SpinJson(body.spin);
   json["level"] = body.level;
   json["shapes"] = Json::array();
@@ -301,7 +293,7 @@ Json PairJson(const SceneIn<Kind, Rational>& scene, const Item& item) {
 template <class Kind, class Item>
 Json AnchoredJson(const SceneIn<Kind, Rational>& scene, const Item& item) {
   Json json = PairJson(scene, item);
-  json["anchors"] = Json::array({NumbersJson(item.at_a), NumbersJson(item.at_b)});
+  json["anchors"] = Json::array({ListJson(item.at_a), ListJson(item.at_b)});
   return json;
 }
 
@@ -309,15 +301,15 @@ template <class Kind>
 Json JointJson(const SceneIn<Kind, Rational>& scene, const JointIn<Kind, Rational>& joint) {
   Json json = {{"kind", Kind::kJointNames[static_cast<std::size_t>(joint.kind)]}};
   json.update(AnchoredJson(scene, joint));
-  if (HasDirection(joint)) json["axis"] = NumbersJson(joint.direction);
-  if (HasTurn(joint)) json["turn"] = NumbersJson(joint.relative_rotation);
+  if (HasDirection(joint)) json["axis"] = ListJson(joint.direction);
+  if (HasTurn(joint)) json["turn"] = ListJson(joint.relative_rotation);
   return json;
 }
 
 template <class Kind>
 Json ContactJson(const SceneIn<Kind, Rational>& scene, const GivenContactIn<Kind, Rational>& contact) {
   Json json = AnchoredJson(scene, contact);
-  json["axis"] = NumbersJson(contact.normal);
+  json["axis"] = ListJson(contact.normal);
   return json;
 }
 
@@ -333,8 +325,7 @@ Json RuleJson(const SceneIn<Kind, Rational>& scene, const PairRule<Rational>& ru
 
 template <class Kind>
 SceneFileIn<Kind> ParseScene(std::string_view text, const std::string& source) {
-  const Json json = ParseJson(text, source);
-  return SceneReader<Kind>().Read(JsonPlace(json, source, ""));
+  return SceneReader<Kind>().Read(JsonPlace(text, source));
 }
 template SceneFile ParseScene<Plane>(std::string_view, const std::string&);
 template SceneFileInSpace ParseScene<Space>(std::string_view, const std::string&);
@@ -342,14 +333,14 @@ template SceneFileInSpace ParseScene<Space>(std::string_view, const std::string&
 SceneFile ReadScene(const std::filesystem::path& file) { return ParseScene(ReadText(file), file.string()); }
 
 template <class Kind>
-Json ToJson(const SceneFileIn<Kind>& file) {
+SharedJson ToJson(const SceneFileIn<Kind>& file) {
   const auto& scene = file.scene;
   Json json = {{"format", kSceneFormat},
                {"version", kSceneVersion},
                {"name", scene.name},
                {"dimension", Kind::kDimension}};
   if (!file.note.empty()) json["note"] = file.note;
-  json["gravity"] = NumbersJson(scene.gravity);
+  json["gravity"] = ListJson(scene.gravity);
   json["mu"] = ToString(scene.mu);
   json["gap"] = ToString(scene.gap);
   json["rest"] = ToString(scene.rest);
@@ -362,16 +353,16 @@ Json ToJson(const SceneFileIn<Kind>& file) {
   for (const auto& rule : scene.pairs) json["pairs"].push_back(RuleJson(scene, rule));
   return json;
 }
-template Json ToJson(const SceneFile&);
-template Json ToJson(const SceneFileInSpace&);
+template SharedJson ToJson(const SceneFile&);
+template SharedJson ToJson(const SceneFileInSpace&);
 
 // The members of the scene, and of its lists, on a line each.
 template <class Kind>
 std::string Print(const SceneFileIn<Kind>& file) {
-  const Json json = ToJson(file);
+  const SharedJson json = ToJson(file);
   RequireWritable(json);
   std::string text = "{";
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [key, value] : json->items()) {
     text += (text == "{" ? "\n  " : ",\n  ") + JsonText(key) + ": ";
     if (!value.is_array() || value.empty() || !value[0].is_object()) {
       text += JsonText(value);
@@ -387,13 +378,12 @@ template std::string Print(const SceneFile&);
 template std::string Print(const SceneFileInSpace&);
 
 std::variant<SceneFile, SceneFileInSpace> ParseAnyScene(std::string_view text, const std::string& source) {
-  const Json json = ParseJson(text, source);
-  const bool inside = json.is_object() && json.value("format", Json()) == "stiction-problem";
-  if (inside) {
-    const Json& scene = JsonPlace(json, source, "").Required("scene", "the scene of the problem").json();
-    return ParseAnyScene(JsonText(scene), source + ": scene");
+  const JsonPlace root(text, source);
+  if (root.HasFormat("stiction-problem")) {
+    const JsonPlace scene = root.Required("scene", "the scene of the problem");
+    return ParseAnyScene(JsonText(scene.json()), source + ": scene");
   }
-  if (ReadHeader(JsonPlace(json, source, ""), 2, 3) == 3) return ParseScene<Space>(text, source);
+  if (ReadHeader(root, 2, 3) == 3) return ParseScene<Space>(text, source);
   return ParseScene(text, source);
 }
 

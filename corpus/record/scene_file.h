@@ -39,7 +39,7 @@ std::variant<SceneFile, SceneFileInSpace> ReadAnyScene(const std::filesystem::pa
 
 // What the reader reads back to the same scene: anchors of joints and contacts in the bodies' coordinates.
 template <class Kind>
-Json ToJson(const SceneFileIn<Kind>& file);
+SharedJson ToJson(const SceneFileIn<Kind>& file);
 template <class Kind>
 std::string Print(const SceneFileIn<Kind>& file);
 

@@ -34,7 +34,8 @@ std::vector<ProblemFile> ProblemsOf(const SceneFileIn<Kind>& file, const ModelIn
     problem.problem = o.factors ? AnyProblem(model.InFactors(i)) : AnyProblem(model.Problem(i));
     problem.name = file.scene.name;
     if (model.islands.size() > 1) problem.name += fmt::format("-{}", i + 1);
-    problem.origin = {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}};
+    problem.origin.Add(
+        {{"scene", file.scene.name}, {"level", o.level}, {"model", o.full ? "full" : "minimal"}});
     if (o.full) problem.scene = ToJson(file);
   }
   return problems;

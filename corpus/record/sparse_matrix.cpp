@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corpus/exact_number.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 

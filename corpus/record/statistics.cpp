@@ -328,18 +328,15 @@ TallyKey ReadKey(const JsonPlace& place) {
 }  // namespace
 
 Record ParseRecord(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(text, source);
   root.RequireObject();
   root.AllowKeys({"tallies", "signatures", "existence", "agreement", "loops", "words", "under_test"});
   Record record;
   ForEachIn(root.Required("tallies", "a list"), [&record](const JsonPlace& entry) {
     PlaceFor(record.tallies, ReadKey(entry), entry, "each generator, size and policy once") = ReadTally(entry);
   });
-  const JsonPlace signatures = root.Required("signatures", "counts by signature");
-  signatures.RequireObject();
-  for (const auto& [signature, count] : signatures.json().items())
-    record.signatures[signature] = ReadCount(signatures.Child(signature, count));
+  for (const auto& [signature, count] : root.Required("signatures", "counts by signature").Members())
+    record.signatures[signature] = ReadCount(count);
   ForEachIn(root.Required("existence", "a list"), [&record](const JsonPlace& entry) {
     const int contacts = ReadSmall(entry.Required("contacts", "a number"));
     ReadCounters(entry, PlaceFor(record.existence, contacts, entry, "each size once"), {"contacts"});
@@ -364,13 +361,10 @@ Record ParseRecord(const std::string& text, const std::string& source) {
       ReadCounters(entry, tally, {"generator", "contacts", "friction", "rank", "spread"});
     });
   }
-  const JsonPlace words = root.Required("words", "hashes by signature");
-  words.RequireObject();
-  for (const auto& [signature, hashes] : words.json().items()) {
-    const JsonPlace list = words.Child(signature, hashes);
+  for (const auto& [signature, list] : root.Required("words", "hashes by signature").Members()) {
     WordSketch& sketch = record.words[signature];
     ForEachIn(list, [&sketch](const JsonPlace& hash) { sketch.Add(ReadHash(hash)); });
-    if (sketch.hashes().size() != hashes.size())
+    if (sketch.hashes().size() != list.Size("a list"))
       list.Refuse(fmt::format("at most {} hashes, each once", WordSketch::kMost));
   }
   return record;

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"
 
@@ -33,8 +33,8 @@ void AddFinding(StoreTotals& totals, Finding finding) {
       finding.kind == kDisagreementOfMethods && KindOf(finding.signature) != kDisagreementOfMethods;
   if (!finding.done || finding.minimized.empty()) return;
   if (IsLoopKind(finding.kind)) {
-    const Json facts = MinimizedFacts(finding);
-    const Json& grid = facts.at("grid");
+    const SharedJson facts = MinimizedFacts(finding);
+    const auto grid = JsonPlace(facts, finding.signature, "").Required("grid", "outcomes").Members();
     totals.finished_loops += !grid.empty();
     totals.whole_grid += grid.size() == 1;
   }
@@ -66,11 +66,10 @@ std::int64_t StoreTotals::LoopGroups() const {
   return sum;
 }
 
-Json MinimizedFacts(const Finding& finding) {
+SharedJson MinimizedFacts(const Finding& finding) {
   const std::string source = "facts of " + finding.signature;
-  const Json facts = ParseJson(finding.facts, source);
-  const JsonPlace minimized =
-      JsonPlace(facts, source, "").Required("minimized", "those of the minimized problem");
+  const JsonPlace facts(finding.facts, source);
+  const JsonPlace minimized = facts.Required("minimized", "those of the minimized problem");
   minimized.Required("grid", "outcomes over the policy grid").RequireObject();
   for (const char* key : {"contacts", "start", "period"}) minimized.Required(key, "a number");
   return minimized.json();

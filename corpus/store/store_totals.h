@@ -49,7 +49,7 @@ StoreTotals TotalsOf(const Store& store);
 
 // What the facts of a finished finding say of its minimized problem: with a grid, contacts, start and period.
 // InputError where they do not.
-Json MinimizedFacts(const Finding& finding);
+SharedJson MinimizedFacts(const Finding& finding);
 
 // "processor time: 41.2 s: generation 10 %, ..."; what took nothing is left out, all of it if nothing took any.
 std::string TimeText(const ProcessorTime& time);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/rational.h"
 #include "corpus/record/kinds.h"

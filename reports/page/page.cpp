@@ -7,6 +7,7 @@
 #include <set>
 
 #include "corpus/grouped.h"
+#include "corpus/json.h"
 #include "reports/findings_template.h"
 #include "reports/html/packed.h"
 #include "reports/html/template.h"
@@ -96,7 +97,7 @@ std::string Page(const std::string& name, const ReportContent& content, const To
   const Json data = {
       {"figures", FiguresToJson(figures, told, name)},
       {"findings", first ? FindingsToJson(content.discoveries, content.since, kFindingsNamed) : Json::array()},
-      {"player", first ? content.player : Json()}};
+      {"player", first ? *content.player : Json()}};
   const std::string page(std::begin(kReportTemplate), std::end(kReportTemplate));
   return FilledTemplate(page, {{"title", Text(kHeadings.at(name).first)},
                                {"heading", Text(kHeadings.at(name).second)},
@@ -116,7 +117,7 @@ std::string FindingsPage(const ReportContent& content, const Told& told) {
   const Json data = {{"choices", ChoicesAmong(findings)},
                      {"count", findings.size()},
                      {"findings", FindingsToJson(content.discoveries, content.since, kFindingsShown)},
-                     {"plays", content.player.is_null() ? Json(0) : content.player["problem"]["dimension"]}};
+                     {"plays", content.player ? content.player->at("problem").at("dimension") : Json(0)}};
   const Html gallery = Html("<div id=\"gallery\"></div>\n") + FindingsRows(content.discoveries, content.since);
   return FilledTemplate(page, {{"found", SectionsToHtml(told, "findings", {{"gallery", gallery}})},
                                {"data", ScriptData(text(data))},

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/store/store_totals.h"
 #include "reports/html/html.h"
 #include "reports/page/frontiers.h"
@@ -46,7 +46,7 @@ struct ReportContent {
   std::vector<RungLine> rungs;                 // of a benchmark; empty: none was measured
   std::vector<std::filesystem::path> benches;  // its files
   std::optional<Since> since;                  // an earlier report
-  Json player;                                 // what the page plays of the simplest loop; null: nothing
+  SharedJson player;                           // what the page plays of the simplest loop; null: nothing
 };
 
 // All that pages say of it: `index`, `results` and `findings`, or `measured`. It must outlive what is returned.

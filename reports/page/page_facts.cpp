@@ -89,7 +89,7 @@ void AddFindings(Facts& facts, const ReportContent& content) {
                         {"all_represented", represented == groups},
                         {"findings_shown", static_cast<std::int64_t>(kFindingsShown)},
                         {"many", represented > static_cast<std::int64_t>(kFindingsShown)},
-                        {"plays", !content.player.is_null()}});
+                        {"plays", content.player ? 1 : 0}});
   facts.texts["simplest"] = simplest == nullptr ? "" : simplest->signature;
   facts.tables["kinds"] = [&content] {
     std::vector<Table> kinds = KindTable("Of the algorithm, in exact arithmetic", content.discoveries, false);
@@ -117,31 +117,18 @@ void AddSince(Facts& facts, const ReportContent& content) {
 
 // ---- Campaign ----
 
-std::string PlainText(const Json& json, const char* separator = ", ") {
-  if (json.is_string()) return json.get<std::string>();
-  if (json.is_number_integer()) return Grouped(json.get<std::int64_t>());
-  if (!json.is_array()) return JsonText(json);
-  std::vector<std::string> parts;
-  for (const Json& element : json) parts.push_back(PlainText(element));
-  return fmt::format("{}", fmt::join(parts, separator));
-}
-
 void AddCampaign(Facts& facts, const ReportContent& content) {
   const CampaignIdentity& identity = content.identity;
   // An optimized search tallies no problems.
   const std::int64_t asked = content.Objective().empty() ? content.totals.problems : content.own.problems;
   Lines& list = facts.lists["campaign"] = {{"seed", std::to_string(identity.seed)}};
-  const Json json = ToldDefinition(identity);
-  if (!json.is_object()) {
-    list.emplace_back("definition", PlainText(json));
-  } else {
-    for (const auto& [key, value] : json.items()) {
-      if (key == "format" || key == "version") continue;
-      const auto label = content.labels.find(key);
-      list.emplace_back(label == content.labels.end() ? key : label->second, PlainText(value));
-    }
+  for (const auto& [key, value] : PlainValues(ToldDefinition(identity), true)) {
+    if (key == "format" || key == "version") continue;
+    const auto label = content.labels.find(key);
+    list.emplace_back(label == content.labels.end() ? key : label->second, value);
   }
-  list.emplace_back("policies", PlainText(JsonOrText(identity.policies), "; "));
+  if (list.size() == 1) list.emplace_back("definition", PlainValue(ToldDefinition(identity), true));
+  list.emplace_back("policies", PlainValue(JsonOrText(identity.policies), true, "; "));
   list.emplace_back("version of the algorithm", std::to_string(identity.algorithm));
   for (const std::string& build : content.totals.work.builds) list.emplace_back("searched by", build);
   list.insert(list.end(), {{"problems", Grouped(asked)},
@@ -160,8 +147,9 @@ void AddCampaign(Facts& facts, const ReportContent& content) {
 }  // namespace
 
 std::string ReportContent::Objective() const {
-  const Json definition = JsonOrText(identity.definition);
-  return definition.is_object() ? definition.value("objective", "") : "";
+  for (const auto& [key, value] : PlainValues(JsonOrText(identity.definition)))
+    if (key == "objective") return value;
+  return "";
 }
 
 Told Tell(const ReportContent& content, const std::vector<std::string>& pages) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "corpus/json.h"
 #include "corpus/plain_text.h"
 #include "corpus/text_template.h"
 #include "reports/papers/latex/citation_bib.h"
@@ -65,9 +64,8 @@ std::map<std::string, std::string> LatexFiles(const Store& store) {
         Named("methods", CountedByContacts("methods-in-papers", record))})
     files["latex/" + table.name + ".tex"] = ToLatex(table);
   std::vector<std::string> remarks, series, legend, contacts;
-  const Json told = RemarksOf(store.identity());
-  for (const auto& [name, value] : told.items())
-    remarks.push_back(fmt::format("\\\\\n{}: {}", LatexText(name), LatexText(PlainValue(value))));
+  for (const auto& [name, value] : PlainValues(RemarksOf(store.identity())))
+    remarks.push_back(fmt::format("\\\\\n{}: {}", LatexText(name), LatexText(value)));
   for (const auto& [generator, rates] : LoopCurves(record)) {
     series.push_back(std::to_string(series.size() + 1));
     legend.push_back("{" + LatexText(generator) + "}");

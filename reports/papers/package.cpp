@@ -37,8 +37,7 @@ std::vector<std::pair<std::string, std::string>> CertificatesOf(const Discovery&
 }
 
 std::string ClaimOf(const std::string& certificate, const std::string& name) {
-  const Json json = ParseJson(certificate, name);
-  return JsonPlace(json, name, "").Required("claim", "a claim").Text("a claim");
+  return JsonPlace(certificate, name).Required("claim", "a claim").Text("a claim");
 }
 
 Json Entry(const Discovery& discovery, const std::map<std::string, std::string>& files) {

@@ -52,7 +52,7 @@ Result Drawn(const Finding& finding, Draw draw) {
     const ProblemFile file = ParseProblem(finding.problem, finding.signature);
     if (!file.scene) return Result();
     return std::visit([&](const auto& scene) -> Result { return draw(Show(scene, finding.signature)); },
-                      ParseAnyScene(JsonText(*file.scene), finding.signature + ": scene"));
+                      ParseAnyScene(JsonText(file.scene), finding.signature + ": scene"));
   } catch (const InputError&) {
     return Result();
   }

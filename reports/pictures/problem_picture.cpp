@@ -67,19 +67,19 @@ template <class Kind>
 Json PictureOf(const SceneFileIn<Kind>& scene, const ExactProblem& problem, const std::string& source) {
   const auto contacts = FindContacts(scene.scene);
   const auto model = Assemble(scene.scene, contacts);
-  if (model.islands.size() != 1 || !AreSame(model.Problem(0), problem)) return nullptr;
+  if (model.islands.size() != 1 || !AreSame(model.Problem(0), problem)) return {};
   return PictureOfProblem(RoundedScene(scene, source), contacts, model, model.islands[0]);
 }
 
 }  // namespace
 
-Json PictureBeside(const ProblemFile& file, const std::string& source) {
-  if (!file.scene) return nullptr;
+SharedJson PictureBeside(const ProblemFile& file, const std::string& source) {
+  if (!file.scene) return {};
   try {
-    const auto scene = ParseAnyScene(JsonText(*file.scene), source + ": scene");
+    const auto scene = ParseAnyScene(JsonText(file.scene), source + ": scene");
     return std::visit([&](const auto& each) { return PictureOf(each, file.problem, source); }, scene);
   } catch (const InputError&) {
-    return nullptr;
+    return {};
   }
 }
 

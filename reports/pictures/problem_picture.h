@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 #include "scene/assemble.h"
 
 namespace stiction {
@@ -24,7 +25,7 @@ Json PictureOfProblem(const SceneIn<Kind, double>& scene,
 
 // The picture of the scene that a problem brings along, unless the problem has changed since, or the scene is
 // none.
-Json PictureBeside(const ProblemFile& file, const std::string& source);
+SharedJson PictureBeside(const ProblemFile& file, const std::string& source);
 
 }  // namespace stiction
 

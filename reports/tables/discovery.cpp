@@ -11,7 +11,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/kinds.h"
 #include "corpus/store/finding_words.h"
 
@@ -47,7 +47,7 @@ RunFacts ReadRun(const JsonPlace& facts) {
   RunFacts run = {
       count("contacts", 1 << 20), count("start"), count("period"), count("steps"), ReadGrid(facts), {}};
   const auto safe = facts.Optional("safe");
-  if (safe && safe->json().is_boolean()) run.safe = safe->json().get<bool>();
+  if (safe && !safe->IsNull()) run.safe = safe->Truth("true, false or null");
   return run;
 }
 
@@ -62,8 +62,7 @@ void CountSteps(RunFacts& run, const Finding& finding, FindingForm form) {
 void AddFacts(Discovery& discovery, const Finding& finding) {
   if (finding.facts.empty()) return;
   const std::string source = "facts of " + finding.signature;
-  const Json json = ParseJson(finding.facts, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(finding.facts, source);
   root.RequireObject();
   if (const auto found = root.Optional("found")) {
     discovery.found = ReadRun(*found);

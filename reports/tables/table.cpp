@@ -376,14 +376,14 @@ std::string ToCsv(const Table& table) {
   return csv;
 }
 
-Json ToJson(const Table& table) {
+SharedJson ToJson(const Table& table) {
   Json rows = Json::array();
   for (const Table::Row& row : table.rows) {
     Json cells = Json::array();
     for (const TableCell& cell : DataRow(table, row)) cells.push_back(DataJson(cell));
     rows.push_back(std::move(cells));
   }
-  return {{"columns", DataNames(table)}, {"rows", std::move(rows)}};
+  return Json{{"columns", DataNames(table)}, {"rows", std::move(rows)}};
 }
 
 std::string ToText(const Table& table) {

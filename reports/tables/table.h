@@ -134,7 +134,7 @@ std::string QuotedForCsv(const std::string& text);
 // RFC 4180: a line of names, CRLF.
 std::string ToCsv(const Table& table);
 // {"columns": [...], "rows": [[...], ...]}
-Json ToJson(const Table& table);
+SharedJson ToJson(const Table& table);
 // For a terminal; empty without rows.
 std::string ToText(const Table& table);
 Html ToHtml(const Table& table);

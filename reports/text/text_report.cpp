@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "corpus/grouped.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/plain_text.h"
 #include "corpus/program_name.h"
 #include "corpus/record/kinds.h"
@@ -80,17 +80,17 @@ std::string GroupsByKind(const StoreTotals& t) {
 
 // What happens to a finished finding, minimized.
 std::string FindingText(const Finding& finding) {
-  const Json facts = MinimizedFacts(finding);
-  const auto number = [&facts](const char* key) { return facts.at(key).get<std::int64_t>(); };
-  std::string text = Counted(number("contacts"), "contact");
+  const SharedJson values = MinimizedFacts(finding);
+  const JsonPlace facts(values, finding.signature, "");
+  std::string text = Counted(facts.Required("contacts", "a count").Integer(0, INT64_MAX, "a count"), "contact");
   if (IsLoopKind(finding.kind)) {
     text += ", " + LoopClause(ProvedRunOf(finding, FindingForm::kMinimized), UnitOfLoop(finding));
   } else {
     text += ", " + InWords(finding.kind);
   }
   std::string grid;
-  for (const auto& [outcome, count] : facts.at("grid").items())
-    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", JsonText(count), outcome);
+  for (const auto& [outcome, count] : facts.Required("grid", "outcomes").Members())
+    grid += fmt::format("{}{} {}", grid.empty() ? "" : ", ", JsonText(count.json()), outcome);
   return text + (grid.empty() ? "; in space, over intervals" : "; policies: " + grid);
 }
 
@@ -172,19 +172,14 @@ std::string WithoutFlags(const std::string& build) {
 // what makes its problems.
 void AddSearched(Facts& facts, const CampaignIdentity& identity, const StoreTotals& t) {
   Lines &all = facts.lists["searched"], &short_one = facts.lists["makes_problems"];
-  const Json definition = ToldDefinition(identity);
-  if (!definition.is_object()) {
-    all = short_one = {{identity.definition, ""}};
-  } else {
-    for (const auto& [key, value] : definition.items()) {
-      if (key == "format" || key == "version") continue;
-      all.emplace_back(fmt::format("{}: {}", key, PlainValue(value)), "");
-      if (key == "generators" || key == "contacts" || key == "mu" || key == "note")
-        short_one.push_back(all.back());
-    }
+  for (const auto& [key, value] : PlainValues(ToldDefinition(identity))) {
+    if (key == "format" || key == "version") continue;
+    all.emplace_back(fmt::format("{}: {}", key, value), "");
+    if (key == "generators" || key == "contacts" || key == "mu" || key == "note")
+      short_one.push_back(all.back());
   }
-  const Json policies = Json::parse(identity.policies, nullptr, false);
-  all.emplace_back("policies: " + (policies.is_array() ? PlainValue(policies) : identity.policies), "");
+  if (all.empty()) all = short_one = {{identity.definition, ""}};
+  all.emplace_back("policies: " + PlainValue(JsonOrText(identity.policies)), "");
   Lines& builds = facts.lists["builds"];
   for (const std::string& build : t.work.builds) builds.emplace_back("build: " + WithoutFlags(build), "");
   facts.lists["build"] = builds.empty() ? Lines() : Lines{builds.front()};
@@ -205,9 +200,8 @@ Facts TextFacts(const Store& store, const StoreTotals& t, const std::string& fil
         &simplest = facts.lists["simplest_ones"];
   for (const Finding& finding : t.grave)
     grave.emplace_back(fmt::format("GRAVE: {}: {}", finding.kind, finding.signature), "");
-  const Json told = RemarksOf(store.identity());
-  for (const auto& [name, value] : told.items())
-    remarks.emplace_back(fmt::format("{}: {}", name, PlainValue(value)), "");
+  for (const auto& [name, value] : PlainValues(RemarksOf(store.identity())))
+    remarks.emplace_back(fmt::format("{}: {}", name, value), "");
   for (std::size_t i = 0; i < std::min(kShown, t.simplest.size()); ++i)
     simplest.emplace_back(t.simplest[i].signature, FindingText(t.simplest[i]));
   return facts;

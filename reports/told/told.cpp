@@ -152,7 +152,7 @@ std::string Plain(const std::string& marked) {
   return plain;
 }
 
-Json ToJson(const Told& told) {
+SharedJson ToJson(const Told& told) {
   Json sections = Json::array();
   for (const Section& section : told) {
     Json parts = Json::array();
@@ -173,16 +173,16 @@ Json ToJson(const Told& told) {
         json["tables"].push_back({{"name", table.name},
                                   {"caption", table.caption},
                                   {"columns", std::move(columns)},
-                                  {"rows", ToJson(table)["rows"]}});
+                                  {"rows", ToJson(table)->at("rows")}});
       }
       parts.push_back(std::move(json));
     }
     sections.push_back({{"id", section.id}, {"title", section.title}, {"parts", std::move(parts)}});
   }
-  return {{"format", "stiction-report"},
-          {"version", 1},
-          {"title", "A report of stiction"},
-          {"sections", std::move(sections)}};
+  return Json{{"format", "stiction-report"},
+              {"version", 1},
+              {"title", "A report of stiction"},
+              {"sections", std::move(sections)}};
 }
 
 std::string ToText(const Told& told, const std::string& medium) {

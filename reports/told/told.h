@@ -75,7 +75,7 @@ Told Tell(std::span<const unsigned char> text, const Facts& facts, const std::ve
 std::string Plain(const std::string& marked);
 
 // report.json (reports/files.md).
-Json ToJson(const Told& told);
+SharedJson ToJson(const Told& told);
 // For a terminal. In a `summary` no section has a heading.
 std::string ToText(const Told& told, const std::string& medium);
 

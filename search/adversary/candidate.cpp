@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
 #include "search/campaign.h"
@@ -74,25 +74,24 @@ ProblemFile FileOf(const Candidate& candidate, const std::string& name) {
   return file;
 }
 
-Json ToJson(const Candidate& candidate) {
-  return {{"generator", Row(candidate.generator).name},
+SharedJson ToJson(const Candidate& candidate) {
+  return {{"generator", std::string(Row(candidate.generator).name)},
           {"contacts", candidate.contacts},
           {"mu", ToString(Rational(candidate.mu.numerator) / Rational(candidate.mu.denominator))},
           {"gravity_only", candidate.gravity_only},
           {"choices", candidate.choices}};
 }
 
-Candidate CandidateFromJson(const JsonPlace& place) {
-  place.RequireObject();
-  place.AllowKeys({"generator", "contacts", "mu", "gravity_only", "choices"});
+Candidate CandidateFromJson(const JsonPlace& place, std::vector<std::string> beside) {
+  beside.insert(beside.begin(), {"generator", "contacts", "mu", "gravity_only", "choices"});
+  place.AllowKeys(beside);
   Candidate candidate;
   candidate.generator = ReadGenerator(place.Required("generator", "the name of a generator"));
   candidate.contacts = static_cast<int>(
       place.Required("contacts", "a number of contacts").Integer(1, kMaxContacts, "a number of contacts"));
   candidate.mu = ReadMu(place.Required("mu", "a friction coefficient as a string"));
   const JsonPlace gravity = place.Required("gravity_only", "true or false");
-  if (!gravity.json().is_boolean()) gravity.Refuse("true or false");
-  candidate.gravity_only = gravity.json().get<bool>();
+  candidate.gravity_only = gravity.Truth();
   if (candidate.gravity_only && !Row(candidate.generator).has_gravity)
     gravity.Refuse("false, since this generator has no bodies");
   const JsonPlace choices = place.Required("choices", "a list of integers");
@@ -103,16 +102,18 @@ Candidate CandidateFromJson(const JsonPlace& place) {
   return candidate;
 }
 
+bool HasChoices(const ProblemFile& file) {
+  return file.origin && JsonPlace(file.origin, file.name, "").Optional("choices");
+}
+
 Candidate CandidateOf(const ProblemFile& file, const std::string& source) {
-  if (!file.origin || !file.origin->contains("choices")) {
+  if (!HasChoices(file)) {
     throw InputError(fmt::format(
         "{}: origin: found none with choices, expected a problem of an optimized search, as `problem "
         "STORE --best` writes it",
         source));
   }
-  Json origin = *file.origin;
-  origin.erase("objective");
-  return CandidateFromJson(JsonPlace(origin, source + ": origin", ""));
+  return CandidateFromJson(JsonPlace(file.origin, source + ": origin", ""), {"objective"});
 }
 
 MuChoice Lowered(const MuChoice& mu, int k, int most_part) {

@@ -37,9 +37,11 @@ ExactProblem ExactOf(const Candidate& candidate);
 // With its scene where it has one, and the candidate as its origin.
 ProblemFile FileOf(const Candidate& candidate, const std::string& name);
 
-Json ToJson(const Candidate& candidate);
-Candidate CandidateFromJson(const JsonPlace& place);  // InputError
-// What the origin of a problem file says. InputError if it holds no choices.
+SharedJson ToJson(const Candidate& candidate);
+// InputError; keys that may stand `beside` say nothing of it.
+Candidate CandidateFromJson(const JsonPlace& place, std::vector<std::string> beside = {});
+// What the origin of a problem file says, if it has choices. InputError if it holds no choices.
+bool HasChoices(const ProblemFile& file);
 Candidate CandidateOf(const ProblemFile& file, const std::string& source);
 
 // The coefficient with the smallest denominator in [mu (1 - 2^(1-k)), mu (1 - 2^-k)]; for k = 1 from a quarter

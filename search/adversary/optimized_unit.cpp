@@ -32,11 +32,6 @@ void KeepBest(std::vector<Elite>& elites, std::size_t most) {
   elites = std::move(kept);
 }
 
-double Number(const JsonPlace& place) {
-  if (!place.json().is_number()) place.Refuse("a number");
-  return place.json().get<double>();
-}
-
 // What an optimizer is given: what was found and what was asked for, of its size, then what is smaller, made as
 // large.
 std::vector<Candidate> StartOf(const Optimization& o, const std::vector<Candidate>& found,
@@ -69,8 +64,7 @@ std::string ToText(const UnitElites& unit) {
 }
 
 UnitElites ElitesFromText(const std::string& text, const std::string& source) {
-  const Json json = ParseJson(text, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(text, source);
   root.RequireObject();
   root.AllowKeys({"elites", "evaluations", "confirmations", "denied"});
   const auto count = [&root](const char* key) {
@@ -84,8 +78,8 @@ UnitElites ElitesFromText(const std::string& text, const std::string& source) {
     place.AllowKeys({"candidate", "nearness", "value"});
     Elite elite;
     elite.candidate = CandidateFromJson(place.Required("candidate", "a candidate"));
-    elite.worth.nearness = Number(place.Required("nearness", "a number"));
-    if (const auto value = place.Optional("value")) elite.worth.value = Number(*value);
+    elite.worth.nearness = place.Required("nearness", "a number").Number("a number");
+    if (const auto value = place.Optional("value")) elite.worth.value = value->Number("a number");
     unit.elites.push_back(std::move(elite));
   }
   return unit;

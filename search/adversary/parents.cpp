@@ -11,7 +11,7 @@
 
 #include "corpus/formats/read_problem.h"
 #include "corpus/input_error.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/rounded.h"
 #include "search/adversary/objective.h"
 #include "search/adversary/optimized_unit.h"
@@ -58,8 +58,6 @@ std::vector<std::int64_t> SequenceOf(const Blocks& blocks) {
 
 // ---- What --from names ---------------------------------------------------------------------------------
 
-bool HasChoices(const ProblemFile& file) { return file.origin && file.origin->contains("choices"); }
-
 bool Has(const Campaign& campaign, GeneratorId generator) {
   return std::ranges::find(campaign.generators, generator) != campaign.generators.end();
 }
@@ -85,9 +83,9 @@ Candidate CandidateOfOne(const std::string& source, const Campaign* campaign) {
     return CandidateOfFinding(CampaignOf(store.identity(), named->store), named->finding, source);
   }
   if (source.ends_with(".json")) {
-    const Json json = ParseJson(ReadText(source), source);
-    if (json.is_object() && json.value("format", Json()) == "stiction-record" && json.contains("problem"))
-      return CandidateOfFile(ParseProblem(JsonText(json["problem"]), source + ": problem"), source, campaign);
+    const JsonPlace root(ReadText(source), source);
+    if (const auto problem = root.HasFormat("stiction-record") ? root.Optional("problem") : std::nullopt)
+      return CandidateOfFile(ParseProblem(JsonText(problem->json()), source + ": problem"), source, campaign);
   }
   return CandidateOfFile(ReadProblem(source), source, campaign);
 }

@@ -26,11 +26,6 @@ Rational ReadNumber(const JsonPlace& place) {
   return *x;
 }
 
-double ReadSeconds(const JsonPlace& place) {
-  if (!place.json().is_number()) place.Refuse("seconds");
-  return place.json().get<double>();
-}
-
 bool OfCondition(const Objective& objective) { return objective.name == "condition"; }
 
 // Whether all eigenvalues of A are in [l, u], 0 < l.
@@ -83,7 +78,7 @@ FrontierRecord RecordInSpace(FrontierRecord record, const Limits& limits) {
   Policy redirect;
   redirect.slip = Slip::kRedirect;
   record.certificate = CycleCertificate(record.problem.problem, {Policy{}, redirect}, limits);
-  if (record.certificate.is_null()) throw InputError("record: found no proof that the problem loops in space");
+  if (!record.certificate) throw InputError("record: found no proof that the problem loops in space");
   record.value = LargestFriction(record.problem.problem);
   return record;
 }
@@ -151,15 +146,12 @@ std::string FaultOf(const FrontierRecord& record, const Limits& limits) try {
 }
 
 FrontierRecord ParseFrontierRecord(std::string_view json_text, const std::string& source) {
-  const Json json = ParseJson(json_text, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(json_text, source);
   root.RequireObject();
   root.AllowKeys({"format", "version", "frontier", "what", "objective", "value", "bounds", "status", "proof",
                   "command", "build", "processor_seconds", "random", "problem", "certificate"});
   const auto text = [&root](const char* key) { return root.Required(key, "a text").Text("a text"); };
-  const JsonPlace format = root.Required("format", "\"stiction-record\"");
-  if (format.Text("\"stiction-record\"") != "stiction-record") format.Refuse("\"stiction-record\"");
-  root.Required("version", "1").Integer(1, 1, "1");
+  root.RequireFormat("stiction-record");
   FrontierRecord record;
   record.frontier = text("frontier");
   record.what = text("what");
@@ -179,12 +171,12 @@ FrontierRecord ParseFrontierRecord(std::string_view json_text, const std::string
   if (record.status == "proved") record.proof = text("proof");
   record.command = text("command");
   record.build = text("build");
-  record.processor_seconds = ReadSeconds(root.Required("processor_seconds", "seconds"));
+  record.processor_seconds = root.Required("processor_seconds", "seconds").Number("seconds");
   const JsonPlace random = root.Required("random", "an object");
   random.RequireObject();
   random.AllowKeys({"value", "evaluations", "command"});
   const JsonPlace value = random.Required("value", "a number p/q as a string, or null");
-  if (!value.json().is_null()) record.random_value = ReadNumber(value);
+  if (!value.IsNull()) record.random_value = ReadNumber(value);
   record.random_evaluations =
       random.Required("evaluations", "a count").Integer(0, std::int64_t{1} << 53, "a count");
   record.random_command = random.Required("command", "a text").Text("a text");

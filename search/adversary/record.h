@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "search/adversary/objective.h"
 #include "solver/problem/options.h"
@@ -42,7 +42,7 @@ struct FrontierRecord {
   std::int64_t random_evaluations = 0;
   std::string random_command;
   ProblemFile problem;
-  Json certificate;
+  SharedJson certificate;
 };
 
 FrontierRecord ParseFrontierRecord(std::string_view text, const std::string& source);  // InputError

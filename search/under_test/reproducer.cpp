@@ -13,7 +13,7 @@
 
 #include "certify/exact/solve.h"
 #include "corpus/input_error.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
@@ -174,8 +174,9 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
         fmt::format("{}: found no failure of a solver under test, expected a finding of search --solver",
                     finding.signature));
   RequireLawOf(name, finding, solver);
-  const Json facts = ParseJson(finding.facts, finding.signature);
-  const bool is_library = facts.value("library", true);
+  const JsonPlace facts(finding.facts, finding.signature);
+  const auto library = facts.Optional("library"), small = facts.Optional("minimized");
+  const bool is_library = !library || library->Truth();
   if (name == "c" && !is_library)
     throw InputError(finding.signature + ": found a finding of a program, expected python for its reproducer");
   const std::string& shown = finding.minimized.empty() ? finding.problem : finding.minimized;
@@ -191,10 +192,10 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
                {name == "c" || (name == "siconos" && solver.law == SolverLaw::kCoulomb), "contacts"},
                {is_of("lemke"), "lemke"},
                {is_of("nsn-ac"), "newton"}});
-  const Json& seen = facts.contains("minimized") ? facts["minimized"] : facts["found"];
+  const JsonPlace seen = small ? *small : facts.Required("found", "what was found");
   const std::size_t dot = file.find_last_of('.');
   blanks.places["SAYS"] = fmt::format("{}: {} {} {}.", finding.signature, solver.name, solver.version,
-                                      Deed(kind, seen["what"].get<std::string>()));
+                                      Deed(kind, seen.Required("what", "a text").Text("a text")));
   blanks.places["ACCURACY"] = solver.accuracy;
   blanks.places["FILE"] = file;
   blanks.places["NAME"] = dot == 0 || dot == file.npos ? file + "-program" : file.substr(0, dot);

@@ -125,8 +125,7 @@ std::string RequestOf(const ContactProblem<double>& posed, SolverLaw law) {
 
 // What it says of itself; `keeps_memory`: that it is not to be asked for leaks.
 SolverUnderTest ReadGreeting(const std::string& line, const std::string& source, bool& keeps_memory) {
-  const Json json = ParseJson(line, source);
-  const JsonPlace root(json, source, "");
+  const JsonPlace root(line, source);
   root.RequireObject();
   if (const auto error = root.Optional("error")) throw InputError(source + ": " + error->Text("a text"));
   const auto text = [&root](const char* key) { return root.Required(key, "a text").Text("a text"); };
@@ -138,12 +137,11 @@ SolverUnderTest ReadGreeting(const std::string& line, const std::string& source,
     root.Required("law", "a law").Refuse(fmt::format("one of {}", fmt::join(kSolverLawNames, ", ")));
   about.law = static_cast<SolverLaw>(known - kSolverLawNames.begin());
   const JsonPlace accuracy = root.Required("accuracy", "a number above 0");
-  const double stated = accuracy.json().is_number() ? accuracy.json().get<double>() : 0;
+  const double stated = accuracy.Number("a number above 0");
   if (!(stated > 0)) accuracy.Refuse("a number above 0");
   if (about.name.empty()) root.Required("solver", "a name").Refuse("a name");
   const auto leaks = root.Optional("leaks");
-  if (leaks && !leaks->json().is_boolean()) leaks->Refuse("true or false: whether leaks are looked for");
-  keeps_memory = leaks && !leaks->json().get<bool>();
+  keeps_memory = leaks && !leaks->Truth("true or false: whether leaks are looked for");
   about.accuracy = fmt::format("{}", stated);
   return about;
 }

@@ -125,7 +125,7 @@ constexpr auto kTestedMembers = std::to_array<ToldOf<T>>({
      [](const T& s) { return kSolverForm.write(s.campaign); }},
     {"units", "integer", "", [](const T& s) -> Json { return s.totals.units; }},
     {"families", "{tried: integer, of: integer, not_reached: [text]}", "generators at numbers of contacts",
-     [](const T& s) { return FamiliesToJson(s.store); }},
+     [](const T& s) -> Json { return FamiliesToJson(s.store); }},
     {"counts", "counters", "problems by what came of them", CountersOf},
     {"passed", "{count: integer, low: number, high: number}", "with the interval of its share at 95 %",
      [](const T& s) { return ShareToJson(s.sum.passed, s.sum.problems); }},
@@ -194,8 +194,8 @@ std::string SolverText(const Store& store, const std::string& file, const std::s
   tell("called solved, where bounds of friction are not unique: not judged", s.sum.unjudged);
   tell("passed, and further from Coulomb's law than its accuracy", s.sum.misses_coulomb);
   tell("passed by the largest units, and not solved by the strict ones", s.sum.neither);
-  const Json remarks = RemarksOf(store.identity());
-  for (const auto& [name, value] : remarks.items()) text += fmt::format("  {}: {}\n", name, PlainValue(value));
+  for (const auto& [name, value] : PlainValues(RemarksOf(store.identity())))
+    text += fmt::format("  {}: {}\n", name, value);
   for (const Aspect& aspect : kAspects) {
     text += fmt::format("by {}{}:\n", aspect.name,
                         std::string_view(aspect.name) == "spread" ? " of A's diagonal, which masses make" : "");

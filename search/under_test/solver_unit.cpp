@@ -11,7 +11,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
 #include "certify/exact/properties.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "search/adversary/optimized_unit.h"
@@ -69,10 +69,10 @@ std::int64_t& CounterOf(UnderTestTally& tally, std::string_view kind) {
   return *found;
 }
 
-Json FactsOf(const Examined& examined, std::size_t contacts, std::int64_t leak) {
-  Json facts = {{"contacts", contacts}, {"kind", examined.kind}, {"what", examined.what}};
-  if (examined.kind == "silent-wrong" && std::isfinite(examined.error)) facts["error"] = examined.error;
-  if (leak > 0) facts["bytes"] = leak;
+SharedJson FactsOf(const Examined& examined, std::int64_t contacts, std::int64_t leak) {
+  SharedJson facts = {{"contacts", contacts}, {"kind", std::string(examined.kind)}, {"what", examined.what}};
+  if (examined.kind == "silent-wrong" && std::isfinite(examined.error)) facts.Add({{"error", examined.error}});
+  if (leak > 0) facts.Add({{"bytes", leak}});
   return facts;
 }
 
@@ -242,8 +242,8 @@ class SolverUnit {
     finding.inexact_outcome = Name(examined.says_solved ? Outcome::kSolved : Outcome::kUndecided);
     finding.exact_outcome = Name(Outcome::kUndecided);
     finding.problem = JsonText(ToJson(file()));
-    finding.facts = JsonText(
-        {{"library", process_.IsLibrary()}, {"found", FactsOf(examined, posed_.contacts.size(), leak)}});
+    finding.facts = JsonText(SharedJson{{"library", process_.IsLibrary()},
+                                        {"found", FactsOf(examined, posed_.contacts.size(), leak)}});
     tell_(finding);
   }
 
@@ -321,8 +321,8 @@ std::string CertificateOfSolution(SolverLaw law, const ExactProblem& problem, co
   const bool of_coulomb = law != SolverLaw::kBox && law != SolverLaw::kFindex;
   if (!in_space && (!of_coulomb || !SolutionUnder(law, *InDoubles(problem)))) return "";
   const FrictionLaw friction = in_space ? FrictionLaw::kCoulomb : FrictionLaw::kBaraff;
-  const Json certificate = DecideExistence(problem, {.law = friction, .limits = limits}).certificate;
-  if (certificate.is_null() || !CheckCertificate(certificate, "solution").accepted) return "";
+  const SharedJson certificate = DecideExistence(problem, {.law = friction, .limits = limits}).certificate;
+  if (!certificate || !CheckCertificate(certificate, "solution").accepted) return "";
   return JsonText(certificate);
 }
 
@@ -345,7 +345,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
   finished.done = true;
   const ExactProblem problem = ParseProblem(finding.problem, finding.signature).problem;
   const SolverLaw law = campaign.solver.law;
-  Json facts = ParseJson(finding.facts, finding.signature);
+  SharedJson facts = JsonPlace(finding.facts, finding.signature).json();
   std::int64_t leak = 0;
   const Task task = TaskOf(Schedule(campaign), finding.unit);
   const std::int64_t calls = CallsOfLeak(UnitProblems(campaign, task, finding.unit));
@@ -361,7 +361,7 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
     return alike(FailureOf(process, posed, finding.kind, kSecondsOfCandidate, calls, leak));
   };
   const bool again = sought.Fails() && sought.Signature(problem.contacts.size()) == finding.signature;
-  facts["alone"] = again;
+  facts.Add({{"alone", again}});
   finished.existence = CertificateOfSolution(law, problem, campaign.limits);
   MinimizeOptions options;
   options.cancelled = cancelled;
@@ -378,15 +378,15 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
       ProblemFile file;
       file.name = finding.signature;
       file.problem = minimized.problem;
-      file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
-                         {"minimized", true}};
+      file.origin = {{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
+                     {"minimized", true}};
       finished.minimized = JsonText(ToJson(file));
       finished.minimized_existence = CertificateOfSolution(law, minimized.problem, campaign.limits);
-      facts["minimized"] = FactsOf(last, minimized.problem.contacts.size(), leak);
+      facts.Add({{"minimized", FactsOf(last, std::ssize(minimized.problem.contacts), leak)}});
     }
     const auto scene = SimpleSceneOf(finding, campaign, fails, cancelled);
     if (scene && alike(alone(PosedFileOf(*scene, law, finding.signature).problem)))
-      facts["scene"] = ToJson(*scene);
+      facts.Add({{"scene", ToJson(*scene)}});
   }
   if (cancelled()) return std::nullopt;
   finished.facts = JsonText(facts);

@@ -5,7 +5,6 @@
 
 #include "certify/claims/agreement.h"
 #include "certify/exact/enumerate.h"
-#include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
 #include "search/units/regenerate.h"
@@ -92,13 +91,13 @@ void Collector::FindDisagreementOfMethods(const Place& place, Outcome published,
                                           const Disagreement& disagreement, const ExactProblem& problem,
                                           const Answers& answers) {
   ++result_.record.agreement[task_.contacts].disagreements;
-  const Json facts = {{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}};
+  const SharedJson facts = {{"disagreement", disagreement.reason}, {"answers", AnswersToJson(answers)}};
   Find(place, published, kDisagreementOfMethods,
-       fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem, &facts);
+       fmt::format("{}-{}-{}c", kDisagreementOfMethods, disagreement.what, task_.contacts), problem, facts);
 }
 
 bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
-                     const ExactProblem& problem, const Json* facts) {
+                     const ExactProblem& problem, const SharedJson& facts) {
   signature = Named(std::move(signature), place.policy);
   if (++result_.record.signatures[signature] > 1) return false;
   const bool full = static_cast<std::int64_t>(result_.candidates.size()) >= campaign_.representatives_per_unit;
@@ -109,7 +108,7 @@ bool Collector::Find(const Place& place, Outcome exact, std::string_view kind, s
   finding.inexact_outcome = Name(place.inexact);
   finding.exact_outcome = Name(exact);
   finding.problem = JsonText(ToJson(FileOf(campaign_, unit_, place.index, problem)));
-  if (facts != nullptr) finding.facts = JsonText(*facts);
+  if (facts) finding.facts = JsonText(facts);
   result_.candidates.push_back(std::move(finding));
   return true;
 }

@@ -88,7 +88,7 @@ class Collector {
                                  const ExactProblem& problem, const Answers& answers);
   // Whether it is the first with this signature in the unit.
   bool Find(const Place& place, Outcome exact, std::string_view kind, std::string signature,
-            const ExactProblem& problem, const Json* facts = nullptr);
+            const ExactProblem& problem, const SharedJson& facts = {});
   // A signature as the store has it.
   std::string Named(std::string signature, std::size_t number) const;
 

@@ -61,9 +61,9 @@ ProblemFile Describe(const ExactProblem& problem, const Finding& finding, const 
   ProblemFile file;
   file.name = finding.signature;
   file.problem = problem;
-  file.origin = Json{{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
-                     {"minimized", true}};
-  if (has_scene) (*file.origin)["scene"] = kSceneOfParent;
+  file.origin = {{"parent", fmt::format("{}-{}-{}", finding.generator, finding.unit, finding.index)},
+                 {"minimized", true}};
+  if (has_scene) file.origin.Add({{"scene", kSceneOfParent}});
   file.expect[whole_grid ? "*" : PolicyName(policy)] = finding.exact_outcome;
   return file;
 }
@@ -78,11 +78,11 @@ Decided DecideExistenceOf(const ExactProblem& problem, const std::string& source
                           const std::function<bool()>& cancelled) {
   const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits},
                                                 [&cancelled](const Enumeration&) { return !cancelled(); });
-  const bool decided = !existence.certificate.is_null();
+  const bool decided = bool(existence.certificate);
   Decided result;
   if (decided) result.certificate = Checked(existence.certificate, source);
   const ExactAnswer complete = Solve(problem, {.method = "complete", .limits = limits});
-  result.facts = {{"claim", decided ? existence.certificate.at("claim") : Json()},
+  result.facts = {{"claim", decided ? existence.certificate->at("claim") : Json()},
                   {"method", existence.method},
                   {"pieces", complete.counters[Counter::kPieces]},
                   {"folds", complete.counters[Counter::kFolds]},
@@ -194,7 +194,7 @@ void MinimizeFound(Finding& finding, Json& facts, const Unfinished& found, const
 
 std::string ExistenceInSpace(const ExactProblem& problem, const std::string& source, const Limits& limits) {
   const ClaimAnswer existence = DecideExistence(problem, {.law = FrictionLaw::kBaraff, .limits = limits});
-  return existence.certificate.is_null() ? std::string() : Checked(existence.certificate, source);
+  return existence.certificate ? Checked(existence.certificate, source) : std::string();
 }
 
 // Empty where it has none.
@@ -247,7 +247,7 @@ std::optional<Finding> FinishFinding(const Finding& finding, const Limits& limit
   if (file.problem.dimension() == 3) return FinishInSpace(finding, file.problem, limits, cancelled, methods);
   Unfinished found{file.problem,
                    methods.published(file.problem, {.policy = ParsePolicy(finding.policy), .limits = limits}),
-                   Json::object(), file.scene.has_value(), methods};
+                   Json::object(), bool(file.scene), methods};
   Finding finished = finding;
   finished.done = true;
   if (finding.contacts <= kMostContactsOfGrid) found.grid = GridCounts(file.problem, limits, cancelled);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
 #include "search/generators/generators.h"
@@ -38,10 +37,10 @@ ProblemFile FileOf(const Campaign& campaign, std::int64_t unit, std::int64_t ind
   ProblemFile file;
   file.name = fmt::format("{}-{}-{}", generator, unit, index);
   file.problem = problem;
-  file.origin = Json{{"generator", generator},
-                     {"campaign_seed", std::to_string(campaign.seed)},
-                     {"unit", unit},
-                     {"index", index}};
+  file.origin.Add({{"generator", generator},
+                   {"campaign_seed", std::to_string(campaign.seed)},
+                   {"unit", unit},
+                   {"index", index}});
   Choices choices = ChoicesOf(campaign, unit, index);
   if (auto scene = GenerateScene(task.generator, task.contacts, SurroundingsOf(campaign), choices)) {
     scene->name = file.name;

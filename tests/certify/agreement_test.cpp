@@ -128,7 +128,7 @@ TEST_CASE("agreement: the answers are written down with what they claim") {
   CHECK(json[1]["f"].size() == 2);
   CHECK(json[3]["method"] == "enumerate");
   CHECK(json[3]["solutions"].size() == 3);
-  CHECK_FALSE(AnswersToJson({{AnswerBy("lemke", Outcome::kRay)}, {}})[0].contains("f"));
+  CHECK_FALSE(AnswersToJson({{AnswerBy("lemke", Outcome::kRay)}, {}})->at(0).contains("f"));
 }
 
 TEST_CASE("agreement: solutions are counted with their signs") {

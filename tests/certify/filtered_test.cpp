@@ -8,10 +8,12 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
+#include "certify/claims/witness.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
+#include "corpus/json.h"
 #include "corpus/rounded.h"
 #include "tests/methods.h"
 #include "tests/support.h"
@@ -282,7 +284,7 @@ TEST_CASE(
   for (auto& contact : beyond.contacts) contact.mu *= Number("1e400");
   const ClaimAnswer existence = DecideExistence(beyond, {});
   CHECK(CheckCertificate(existence.certificate, "test").accepted);
-  CHECK(DecideExistence(NoSolution(), {}).certificate.at("claim") == "no-solution");
+  CHECK(DecideExistence(NoSolution(), {}).certificate->at("claim") == "no-solution");
 }
 
 // Of A = J J' with fewer columns than rows: most accelerations follow from a few.

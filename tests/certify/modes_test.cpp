@@ -384,7 +384,7 @@ TEST_CASE("modes: the first solution only, a spent budget, a cancelled search") 
 // A problem of two static contacts without a solution whose proof has several prefixes.
 std::pair<ExactProblem, Json> ProofInParts() {
   const ExactProblem problem = Decoupled(ThreeSolutions(), NoSolution());
-  return {problem, NoSolutionCertificate(problem, EnumerateModes(problem))["witness"]};
+  return {problem, NoSolutionCertificate(problem, EnumerateModes(problem))->at("witness")};
 }
 
 TEST_CASE("no-solution: a certificate that is tampered with is refused") {

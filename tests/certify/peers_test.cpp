@@ -23,7 +23,7 @@ TEST_CASE("peers: answers that a package calls a success violate the law, and th
     if (entry.path().extension() != ".json") continue;
     INFO(entry.path());
     const ProblemFile file = ReadProblem(entry.path());
-    const Json origin = file.origin.value();
+    const Json origin = file.origin;
     REQUIRE(origin.at("called") == "success");
     packages.insert(origin.at("package"));
     ExactProblem::Vector f(file.problem.rows());

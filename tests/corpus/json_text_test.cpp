@@ -57,5 +57,35 @@ TEST_CASE("JSON: a number that is not 0 and has no double but 0, or none at all,
     CHECK_NOTHROW(ParseJson("[" + literal + "]", "f"));
 }
 
+TEST_CASE("JSON: a value that is handed on is shared, and changed in one place only") {
+  SharedJson one = {{"a", 1}, {"b", "text"}, {"c", std::vector<std::string>{"x"}}, {"d", true}, {"e", 0.5}};
+  const SharedJson other = one;
+  one.Add({{"b", SharedJson{{"in", "it"}}}, {"f", 2}});
+  CHECK(JsonText(one) == R"({"a":1,"b":{"in":"it"},"c":["x"],"d":true,"e":0.5,"f":2})");
+  CHECK(JsonText(other) == R"({"a":1,"b":"text","c":["x"],"d":true,"e":0.5})");
+  SharedJson none;
+  CHECK(!none);
+  none.Add({{"a", 1}});
+  CHECK(*none == Json{{"a", 1}});
+  CHECK(Json{{"in", none}}["in"]["a"] == 1);
+}
+
+TEST_CASE("JSON: the places of a text keep it, and refuse what is not asked for") {
+  const std::string source = "f";
+  const JsonPlace root(R"({"format": "stiction-x", "version": 1, "yes": true, "x": [0.5, null]})", source);
+  CHECK(root.HasFormat("stiction-x"));
+  CHECK_FALSE(root.HasFormat("stiction-y", true));
+  CHECK_NOTHROW(root.RequireFormat("stiction-x"));
+  CHECK_THROWS_WITH(root.RequireFormat("y"), "f: format: found \"stiction-x\", expected \"y\"");
+  CHECK(root.Members()[2].second.Truth());
+  const JsonPlace x = root.Required("x", "a list");
+  CHECK(x[0].Number("a number") == 0.5);
+  CHECK(x[1].IsNull());
+  CHECK_THROWS_WITH(x[1].Truth(), "f: x[1]: found null, expected true or false");
+  CHECK(JsonPlace("{}", source).HasFormat("any", true));
+  CHECK(PlainValue(Json{1000, "a", {2}}, true, "; ") == "1,000; a; 2");
+  CHECK(PlainValues(Json{{"k", {1, "b"}}})[0] == std::pair<std::string, std::string>("k", "1, b"));
+}
+
 }  // namespace
 }  // namespace stiction

@@ -158,8 +158,8 @@ bool SameProblem(const ExactProblem& x, const ExactProblem& y) {
 }
 
 bool SameFile(const ProblemFile& x, const ProblemFile& y) {
-  return x.name == y.name && SameProblem(x.problem, y.problem) && x.scene == y.scene && x.origin == y.origin &&
-         x.expect == y.expect;
+  return x.name == y.name && SameProblem(x.problem, y.problem) && *x.scene == *y.scene &&
+         *x.origin == *y.origin && x.expect == y.expect;
 }
 
 // ---- Reading ---------------------------------------------------------------------------------
@@ -176,8 +176,8 @@ TEST_CASE("problem file: the reference problem is read value by value") {
   CHECK(problem.A(1, 3) == -7);
   CHECK(problem.A(3, 2) == 3);
   CHECK(problem.b(2) == -2);
-  CHECK_FALSE(file.scene.has_value());
-  CHECK_FALSE(file.origin.has_value());
+  CHECK_FALSE(file.scene);
+  CHECK_FALSE(file.origin);
   CHECK(file.expect.empty());
 }
 
@@ -258,8 +258,8 @@ TEST_CASE("problem file: scene, origin and expect are kept") {
           R"("scene": "stack", "origin": {"seed": 18446744073709551615, "parent": [1, null, {"x": -0.1}]},
                      "expect": {"paper": "cycle", "ties=contacts,scan=highest": "solved", "*": "undecided"})"),
       "p.json");
-  CHECK(file.scene == Json("stack"));
-  REQUIRE(file.origin.has_value());
+  CHECK(*file.scene == Json("stack"));
+  REQUIRE(file.origin);
   CHECK(file.origin->at("seed").get<std::uint64_t>() == UINT64_MAX);
   CHECK(file.expect.size() == 3);
   CHECK(file.expect.at("ties=contacts,scan=highest") == "solved");
@@ -1049,8 +1049,8 @@ TEST_CASE("problem file: writing and reading gives the same values") {
     const std::string text = Print(file);
     INFO(text);
     REQUIRE(SameFile(ParseProblem(text, "printed"), file));
-    REQUIRE(SameFile(ParseProblem(ToJson(file).dump(), "dumped"), file));
-    REQUIRE(ParseJson(text, "printed") == ToJson(file));
+    REQUIRE(SameFile(ParseProblem(ToJson(file)->dump(), "dumped"), file));
+    REQUIRE(ParseJson(text, "printed") == *ToJson(file));
     REQUIRE(Print(ParseProblem(text, "printed")) == text);
     REQUIRE(SameProblem(ProblemFromJson(ProblemToJson(file.problem), "json", "", true), file.problem));
     for (const auto& contact : file.problem.contacts()) kinds_seen |= 1 << static_cast<int>(contact.kind);
@@ -1096,7 +1096,7 @@ TEST_CASE("problem file: a large A of mostly zeros is written in entries, unless
   CHECK(SameProblem(ProblemFromJson(ProblemToJson(file.problem), "json", "", true), file.problem));
   problem.A(3, 40) = 1;
   file.problem = problem;
-  CHECK(ToJson(file)["A"].is_array());
+  CHECK(ToJson(file)->at("A").is_array());
   CHECK(SameFile(ParseProblem(Print(file), "printed"), file));
 }
 

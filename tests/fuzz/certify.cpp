@@ -71,7 +71,8 @@ bool FuzzCertify(std::string_view input) {
     const std::vector<Policy> policies = PaperAnd(policy);
     made += Makes([&] { return CycleCertificate(problem, policies, kRunLimits); });
     made += Makes([&] {
-      return CertifyClaim(problem, "made", "counterexample", {.limits = kRunLimits}, policies)["certificate"];
+      return CertifyClaim(problem, "made", "counterexample", {.limits = kRunLimits}, policies)
+          ->at("certificate");
     });
   }
   Unrefused([&problem] {

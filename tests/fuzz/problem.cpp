@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "solver/problem/check.h"
@@ -15,7 +16,7 @@ void RequireReadBack(const ProblemFile& file) {
   if (text.size() > kMostTextReadAgain) return;
   const ProblemFile again = ParseProblem(text, "what was written");
   STICTION_CHECK(IsSame(again.problem, file.problem), "a problem that is read back to another");
-  STICTION_CHECK(again.name == file.name && again.scene == file.scene && again.origin == file.origin &&
+  STICTION_CHECK(again.name == file.name && *again.scene == *file.scene && *again.origin == *file.origin &&
                      again.expect == file.expect,
                  "what stands beside a problem is read back to something else");
   STICTION_CHECK(Print(again) == text, "a text that is written differently once it is read");

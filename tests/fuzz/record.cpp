@@ -26,7 +26,7 @@ bool FuzzRecord(std::string_view bytes) {
   const FrontierRecord again = ParseFrontierRecord(text, "what was written");
   STICTION_CHECK(IsSame(again.problem.problem, record->problem.problem), "a record of another problem");
   STICTION_CHECK(again.value == record->value && again.bounds == record->bounds &&
-                     again.random_value == record->random_value && again.certificate == record->certificate,
+                     again.random_value == record->random_value && *again.certificate == *record->certificate,
                  "a record that is read back to another");
   STICTION_CHECK(Print(again) == text, "a text that is written differently once it is read");
   // What needs another process, or a run of every policy, takes too long here.

@@ -22,6 +22,7 @@
 #include "certify/claims/existence.h"
 #include "certify/request/entries.h"
 #include "corpus/formats/formats.h"
+#include "corpus/json.h"
 #include "corpus/record/problem_file.h"
 #include "search/units/minimize.h"
 #include "solver/problem/gate.h"
@@ -255,13 +256,13 @@ inline Fault FaultOfClaims(const ExactProblem& problem, const Truth& truth) {
         DecideExistence(problem, {.limits = {.drives = 1000, .pivots = 1000, .programs = 10000}});
     std::vector<Json> certificates = {SymmetryCertificate(problem), RangeCertificate(problem)};
     if (IsSymmetric(problem)) certificates.push_back(SemidefiniteCertificate(problem));
-    if (!existence.certificate.is_null()) certificates.push_back(existence.certificate);
+    if (existence.certificate) certificates.push_back(existence.certificate);
     for (const Json& certificate : certificates) {
       const CheckReport report = CheckCertificate(certificate, "drawn");
       if (!report.accepted) return {"claim: " + report.claim + " is refused: " + report.reason, command};
     }
-    if (existence.certificate.is_null() || !truth.is_known || truth.bound != 1) return {};
-    const std::string claim = existence.certificate["claim"];
+    if (!existence.certificate || !truth.is_known || truth.bound != 1) return {};
+    const std::string claim = existence.certificate->at("claim");
     if (claim == (truth.solvable ? "no-solution" : "solution-exists"))
       return {"claim: falsely " + claim, command};
   } catch (const std::exception& error) {

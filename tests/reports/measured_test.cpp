@@ -51,7 +51,7 @@ RungLine Measured(const std::string& arithmetic, std::int64_t wrong, std::int64_
 }
 
 TEST_CASE("measured: the figure of the records has numbers, and nothing where nothing was reached") {
-  const Json rows = ToJson(FrontiersFigure(KnownRecords()))["rows"];
+  const Json rows = ToJson(FrontiersFigure(KnownRecords()))->at("rows");
   REQUIRE(rows.size() == 2);
   CHECK(rows[0] == Json({"steps-3-contacts", "steps", "higher", 78, 42, 1000, "steps"}));
   CHECK(rows[1][2] == "lower");

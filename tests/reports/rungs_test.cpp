@@ -81,7 +81,7 @@ TEST_CASE("rungs: a table with the families one below the other, and a figure") 
   const std::vector<Table> tables = facts.tables.at("rungs")();
   for (const Table::Row& row : tables.front().rows) families += Shown(row.cells[0]) + " ";
   CHECK(families == "masses masses <b> ");
-  const Json rows = ToJson(RungsFigure(lines))["rows"];
+  const Json rows = ToJson(RungsFigure(lines))->at("rows");
   REQUIRE(rows.size() == 2);  // the third has no time
   CHECK(rows[1] == Json({"masses", "complete", "filtered", 2.5, 5.0 / 24, 24, 20, 2, 3}));
 }

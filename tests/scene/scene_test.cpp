@@ -11,6 +11,7 @@
 #include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
 #include "certify/exact/verify_solution.h"
+#include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
 #include "scene/rows.h"
@@ -380,7 +381,7 @@ TEST_CASE(
   CHECK(reduction.problem().b[0] == -1);
   CHECK(reduction.problem().b[1] == 0);
   CHECK_FALSE(SolveExactly(problem).has_value());
-  CHECK(DecideExistence(problem, {}).certificate.at("claim") == "no-solution");
+  CHECK(DecideExistence(problem, {}).certificate->at("claim") == "no-solution");
 }
 
 TEST_CASE("scene: two cards lean on each other above mu = (centre - foot) / height, and slide apart below") {

@@ -77,7 +77,7 @@ TEST_CASE("adversary: any integers are a candidate, over doubles and rationals, 
       const std::string source = "test";
       REQUIRE(CandidateFromJson(JsonPlace(json, source, "")) == candidate);
       const ProblemFile file = FileOf(candidate, "candidate");
-      REQUIRE(file.scene.has_value() == (row.id == GeneratorId::kScenes || row.id == GeneratorId::kFineScenes));
+      REQUIRE(bool(file.scene) == (row.id == GeneratorId::kScenes || row.id == GeneratorId::kFineScenes));
       REQUIRE(file.problem.dense().A == exact.A);
     }
   }

@@ -225,9 +225,9 @@ TEST_CASE("campaign: a note is told, comes back from the store, and makes no oth
   CHECK(identity.definition == IdentityOf(Campaign{}).definition);
   CHECK(IdentityOf(Campaign{}).remarks.empty());
   CHECK(CampaignOf(identity, "store") == campaign);
-  CHECK(Read(ToJson(campaign).dump()) == campaign);
-  CHECK(RemarksOf(identity) == Json{{"note", campaign.note}});
-  CHECK(ToldDefinition(identity)["note"] == campaign.note);
+  CHECK(Read(ToJson(campaign)->dump()) == campaign);
+  CHECK(*RemarksOf(identity) == Json{{"note", campaign.note}});
+  CHECK(ToldDefinition(identity)->at("note") == campaign.note);
   for (const std::string& wrong : std::vector<std::string>{R"("note": 3)", R"("note": "two\nlines")",
                                                            R"("note": ")" + std::string(201, 'x') + '"'}) {
     CAPTURE(wrong);

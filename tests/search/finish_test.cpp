@@ -41,7 +41,7 @@ Finding FoundAs(const ExactProblem& problem, const std::string& kind, const std:
   finding.policy = policy;
   finding.inexact_outcome = "cycle";
   finding.exact_outcome = Name(run.verdict.outcome);
-  finding.problem = ToJson(file).dump();
+  finding.problem = ToJson(file)->dump();
   return finding;
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("minimize candidate: a scene becomes a simpler scene with the same out
   CHECK(minimized.accepted < minimized.tried);
   const ProblemFile file = FileOf(minimized.candidate, "simple");
   REQUIRE(Cycles(file.problem));
-  REQUIRE(file.scene.has_value());
+  REQUIRE(file.scene);
   CHECK(minimized.candidate.contacts <= found.contacts);
   CHECK(minimized.candidate.choices.size() <= found.choices.size());
   const MinimizedCandidate again = MinimizeCandidate(minimized.candidate, StillCycles);

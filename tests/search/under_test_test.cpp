@@ -505,7 +505,7 @@ TEST_CASE("under test: a scene is made simpler while the solver fails alike on i
   CHECK(scene->mu == MuChoice{1, 2});  // the one of the campaign's with which it fails
   CHECK(asked > 10);
   const ProblemFile file = PosedFileOf(*scene, SolverLaw::kCoulomb, "simple");
-  CHECK(file.scene.has_value());
+  CHECK(file.scene);
   CHECK(two_press(Rounded<double>(file.problem)));
   CHECK(CandidateOf(file, "simple") == *scene);
   CHECK_FALSE(SimpleSceneOf(finding, campaign, two_press, [] { return true; }).has_value());

@@ -265,7 +265,7 @@ TEST_CASE("unit: an exact run of a finding's problem gives what the finding says
       const ExactProblem problem = Regenerate(campaign, finding.unit, finding.index).problem;
       const ProblemFile file = ParseProblem(finding.problem, "finding");
       CHECK(ProblemToJson(file.problem) == ProblemToJson(problem));
-      CHECK(ToJson(file).dump() == finding.problem);
+      CHECK(ToJson(file)->dump() == finding.problem);
       const Policy policy = ParsePolicy(finding.policy);
       const ExactRun run = RunExact(problem, {.policy = policy, .limits = campaign.limits});
       CHECK(Name(run.verdict.outcome) == finding.exact_outcome);
