@@ -15,7 +15,6 @@
 #include "certify/claims/robust.h"
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
-#include "certify/claims/safety_threshold.h"
 #include "certify/request/request.h"
 #include "cli/command_line.h"
 #include "cli/narration/narrate_text.h"

@@ -4,7 +4,6 @@
 #ifndef STICTION_CLI_NIGHT_H_
 #define STICTION_CLI_NIGHT_H_
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>

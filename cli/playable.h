@@ -8,7 +8,6 @@
 #include <string>
 
 #include "certify/request/request.h"
-#include "certify/request/solve_in.h"
 #include "corpus/record/problem_file.h"
 #include "reports/viewer.h"
 

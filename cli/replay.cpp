@@ -2,7 +2,6 @@
 // stiction replay: a path method on one problem, step by step, exactly where it is built so.
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <iostream>
 #include <map>

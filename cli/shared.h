@@ -11,7 +11,6 @@
 #include <iostream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/narration/outcome_text.h"
 #include "cli/verb.h"

@@ -10,7 +10,6 @@
 #define STICTION_CORPUS_ATOMIC_FILE_H_
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 namespace stiction {

@@ -9,10 +9,8 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <thread>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -20,7 +20,6 @@
 #include <variant>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/neighbour.h"
 #include "certify/exact/newton_bodies.h"

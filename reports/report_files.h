@@ -9,7 +9,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "corpus/whole_folder.h"
 #include "reports/tables/discovery.h"

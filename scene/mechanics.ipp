@@ -5,7 +5,6 @@
 #define STICTION_SCENE_MECHANICS_IPP_
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 

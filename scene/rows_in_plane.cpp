@@ -10,8 +10,6 @@
 //
 //       bias = t.(-w_a^2 r_a + w_b^2 r_b)
 
-#include <utility>
-
 #include "scene/rows.h"
 
 namespace stiction {

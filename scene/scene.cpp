@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "scene/rounding.h"
 

@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>

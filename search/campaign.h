@@ -15,7 +15,6 @@
 #include "search/adversary/candidate.h"
 #include "search/generators/generators.h"
 #include "search/under_test/solver.h"
-#include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 
 namespace stiction {

@@ -6,7 +6,6 @@
 #define STICTION_SEARCH_FAMILIES_H_
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 

@@ -36,7 +36,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "solver/problem/answer.h"

@@ -5,9 +5,7 @@
 #define STICTION_SOLVER_SOLVE_IPP_
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>

@@ -37,7 +37,6 @@
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
 #include "certify/exact/properties.h"
-#include "corpus/record/sparse_matrix.h"
 #include "corpus/rounded.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/units.h"

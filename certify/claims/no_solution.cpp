@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/claims/no_solution.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 

@@ -6,9 +6,6 @@
 #ifndef STICTION_CERTIFY_CLAIMS_NO_SOLUTION_H_
 #define STICTION_CERTIFY_CLAIMS_NO_SOLUTION_H_
 
-#include <optional>
-#include <string>
-
 #include "certify/exact/enumerate.h"
 
 namespace stiction {

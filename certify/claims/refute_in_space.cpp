@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "certify/claims/no_solution.h"
 #include "certify/exact/cones.h"
 #include "certify/exact/enumerate.h"
 #include "certify/exact/farkas.h"
-#include "certify/exact/verify_solution.h"
 #include "solver/problem/check.h"
 
 namespace stiction {

@@ -27,7 +27,6 @@
 #define STICTION_CERTIFY_CLAIMS_ROBUST_SCENE_H_
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "certify/exact/exact.h"

@@ -28,7 +28,6 @@
 #include <string_view>
 #include <variant>
 
-#include "certify/exact/exact.h"
 #include "certify/exact/solve.h"
 #include "corpus/exact_problem.h"
 #include "solver/problem/ball.h"

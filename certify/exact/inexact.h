@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "certify/exact/solve.h"
 #include "corpus/rounded.h"
 #include "solver/published/published_space.h"

@@ -9,7 +9,6 @@
 
 #include <CGAL/Interval_nt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>

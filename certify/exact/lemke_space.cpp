@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "certify/exact/exact.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/remainder.h"
 

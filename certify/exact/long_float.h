@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "certify/exact/wide_ball.h"
-#include "corpus/rational.h"
 #include "solver/problem/ball.h"
 
 namespace stiction {

@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "certify/exact/properties.h"

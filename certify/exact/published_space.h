@@ -16,7 +16,6 @@
 #define STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
 
 #include <string_view>
-#include <vector>
 
 #include "certify/exact/solve.h"
 #include "solver/published/published_space.h"

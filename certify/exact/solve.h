@@ -7,11 +7,8 @@
 #define STICTION_CERTIFY_EXACT_SOLVE_H_
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "corpus/exact_problem.h"
 #include "solver/problem/forms.h"

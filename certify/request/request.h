@@ -8,7 +8,6 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/enumerate.h"

@@ -4,8 +4,6 @@
 #ifndef STICTION_CLI_NARRATION_FOLLOWED_H_
 #define STICTION_CLI_NARRATION_FOLLOWED_H_
 
-#include <fmt/format.h>
-
 #include <string>
 #include <string_view>
 #include <vector>

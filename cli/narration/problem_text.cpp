@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <vector>
 
 #include "cli/narration/narrate_text.h"

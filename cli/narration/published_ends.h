@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "certify/claims/policy_ends.h"
 #include "certify/exact/solve.h"

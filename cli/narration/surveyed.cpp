@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -23,7 +22,6 @@
 #include "corpus/record/factors.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
-#include "solver/problem/check.h"
 #include "solver/problem/errors.h"
 
 namespace stiction {

@@ -5,7 +5,6 @@
 #define STICTION_CORPUS_FORMATS_FORMATS_H_
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

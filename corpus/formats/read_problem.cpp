@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string>
 #include <vector>
 
 #include "corpus/formats/formats.h"
 #include "corpus/json.h"
 #include "corpus/record/scene_file.h"
-#include "corpus/store/store.h"
 #include "scene/assemble.h"
 
 namespace stiction {

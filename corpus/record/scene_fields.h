@@ -4,9 +4,6 @@
 #ifndef STICTION_CORPUS_RECORD_SCENE_FIELDS_H_
 #define STICTION_CORPUS_RECORD_SCENE_FIELDS_H_
 
-#include <string>
-#include <vector>
-
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
 #include "scene/scene.h"

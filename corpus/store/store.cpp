@@ -11,8 +11,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
-#include <map>
-#include <utility>
 
 #include "corpus/atomic_file.h"
 #include "corpus/descriptor.h"

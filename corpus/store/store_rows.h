@@ -11,7 +11,6 @@
 #include <sqlite3.h>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>

@@ -4,9 +4,7 @@
 #ifndef STICTION_REPORTS_PAGE_RUNGS_H_
 #define STICTION_REPORTS_PAGE_RUNGS_H_
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -9,7 +9,6 @@
 #define STICTION_REPORTS_TABLES_TABLE_H_
 
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>

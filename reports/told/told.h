@@ -24,7 +24,6 @@
 #ifndef STICTION_REPORTS_TOLD_TOLD_H_
 #define STICTION_REPORTS_TOLD_TOLD_H_
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <span>

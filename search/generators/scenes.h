@@ -23,7 +23,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 
 #include "corpus/rational.h"
 #include "scene/scene.h"

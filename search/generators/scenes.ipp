@@ -5,7 +5,6 @@
 #define STICTION_SEARCH_SCENES_IPP_
 
 #include <algorithm>
-#include <array>
 
 #include "search/generators/scenes.h"
 

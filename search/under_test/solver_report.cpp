@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/exact_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"

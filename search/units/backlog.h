@@ -17,7 +17,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "corpus/store/store.h"
 

@@ -17,7 +17,6 @@
 #ifndef STICTION_SEARCH_UNITS_MINIMIZE_H_
 #define STICTION_SEARCH_UNITS_MINIMIZE_H_
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <optional>

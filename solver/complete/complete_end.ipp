@@ -11,7 +11,6 @@
 
 #include "solver/complete/complete.h"
 #include "solver/complete/polygon_errors.h"
-#include "solver/problem/check.h"
 #include "solver/problem/lenient.h"
 
 namespace stiction {

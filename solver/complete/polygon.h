@@ -12,7 +12,6 @@
 #define STICTION_SOLVER_COMPLETE_POLYGON_H_
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "solver/problem/check.h"

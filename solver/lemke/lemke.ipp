@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/polygon.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/check.h"
 #include "solver/problem/lenient.h"

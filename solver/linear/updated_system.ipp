@@ -4,8 +4,6 @@
 #ifndef STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_IPP_
 #define STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_IPP_
 
-#include <algorithm>
-
 #include "solver/linear/updated_system.h"
 
 namespace stiction {

@@ -25,7 +25,6 @@
 #define STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
 
 #include <Eigen/SparseCholesky>
-#include <cstdint>
 #include <vector>
 
 #include "solver/linear/sparse_lu.h"

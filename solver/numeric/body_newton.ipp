@@ -5,7 +5,6 @@
 #define STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/numeric/body_newton.h"

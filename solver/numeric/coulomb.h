@@ -31,8 +31,6 @@
 #define STICTION_SOLVER_NUMERIC_COULOMB_H_
 
 #include <cstdint>
-#include <string_view>
-#include <type_traits>
 
 #include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"

@@ -9,11 +9,9 @@
 #include <limits>
 #include <utility>
 
-#include "solver/complete/complete.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/one_contact.h"
 #include "solver/numeric/smooth_law.h"
-#include "solver/problem/errors.h"
 
 namespace stiction {
 

@@ -30,11 +30,8 @@
 #ifndef STICTION_SOLVER_NUMERIC_FAST_H_
 #define STICTION_SOLVER_NUMERIC_FAST_H_
 
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "solver/complete/complete.h"

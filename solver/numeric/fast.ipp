@@ -5,12 +5,9 @@
 #define STICTION_SOLVER_NUMERIC_FAST_IPP_
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/numeric/fast.h"
-#include "solver/problem/errors.h"
-#include "solver/published/published.h"
 
 namespace stiction {
 

@@ -20,8 +20,6 @@
 #ifndef STICTION_SOLVER_NUMERIC_PROXIMAL_H_
 #define STICTION_SOLVER_NUMERIC_PROXIMAL_H_
 
-#include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "solver/complete/complete.h"

@@ -5,7 +5,6 @@
 #define STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_
 
 #include <Eigen/SparseLU>
-#include <algorithm>
 #include <limits>
 
 #include "solver/numeric/proximal.h"

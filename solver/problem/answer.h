@@ -4,7 +4,6 @@
 #ifndef STICTION_SOLVER_PROBLEM_ANSWER_H_
 #define STICTION_SOLVER_PROBLEM_ANSWER_H_
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -21,7 +21,6 @@
 #define STICTION_SOLVER_PROBLEM_UNITS_H_
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <type_traits>
 #include <vector>

@@ -19,7 +19,6 @@
 #define STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "solver/linear/direction.h"

@@ -5,7 +5,6 @@
 #define STICTION_SOLVER_PUBLISHED_PUBLISHED_IPP_
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/linear/direction.ipp"
 #include "solver/published/published.h"

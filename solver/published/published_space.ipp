@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "solver/linear/direction.ipp"
 #include "solver/problem/lenient.h"
