@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "corpus/record/statistics.h"
 
@@ -47,12 +46,7 @@ std::string PoliciesText(const Record& record);
 template <class CountersByContacts>
 auto SumOf(const CountersByContacts& by_contacts) {
   typename CountersByContacts::mapped_type sum;
-  for (const auto& [contacts, counters] : by_contacts) {
-    std::vector<std::int64_t> values;
-    ForEachCounter(counters, [&values](const char*, std::int64_t value) { values.push_back(value); });
-    auto next = values.begin();
-    ForEachCounter(sum, [&next](const char*, std::int64_t& value) { value += *next++; });
-  }
+  for (const auto& [contacts, counters] : by_contacts) AddCounters(sum, counters);
   return sum;
 }
 

@@ -25,14 +25,6 @@ Json Trimmed(const Array& values) {
 }
 
 template <class Tally>
-void AddCounters(Tally& sums, const Tally& tally) {
-  std::vector<std::int64_t> theirs;
-  ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
-  auto next = theirs.begin();
-  ForEachCounter(sums, [&next](const char*, std::int64_t& mine) { mine += *next++; });
-}
-
-template <class Tally>
 Json CountersToJson(const Tally& tally, Json json) {
   ForEachCounter(tally, [&json](const char* name, std::int64_t value) { json[name] = value; });
   return json;
@@ -61,6 +53,14 @@ Json ToJson(const StratumKey& key, const Stratum& stratum) {
 }
 
 }  // namespace
+
+Json ToJson(const TallyKey& key) {
+  return {{"generator", key.generator},
+          {"contacts", key.contacts},
+          {"policy", key.policy},
+          {"method", key.method},
+          {"arithmetic", key.arithmetic}};
+}
 
 void Stratum::Merge(const Stratum& other) {
   problems += other.problems;
@@ -145,11 +145,7 @@ void Record::Merge(const Record& other) {
 std::string Serialize(const Record& record) {
   Json tallies = Json::array();
   for (const auto& [key, tally] : record.tallies) {
-    Json json = {{"generator", key.generator},
-                 {"contacts", key.contacts},
-                 {"policy", key.policy},
-                 {"method", key.method},
-                 {"arithmetic", key.arithmetic}};
+    Json json = ToJson(key);
     json.update(ToJson(tally));
     tallies.push_back(std::move(json));
   }

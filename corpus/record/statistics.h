@@ -30,6 +30,8 @@ struct TallyKey {
   auto operator<=>(const TallyKey&) const = default;
 };
 
+Json ToJson(const TallyKey& key);
+
 // visit(mine, theirs) for every counter of two statistics.
 template <class Visit>
 void ForEachFieldOfTwo(Statistics& mine, const Statistics& theirs, const Visit& visit) {
@@ -262,6 +264,14 @@ void ForEachCounter(Tally&& tally, Visit visit) {
   visit("leak", tally.leak);
   visit("misses_coulomb", tally.misses_coulomb);
   visit(kNotInOlderRecords, tally.neither);
+}
+
+template <class Tally>
+void AddCounters(Tally& sums, const Tally& tally) {
+  std::vector<std::int64_t> theirs;
+  ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
+  auto next = theirs.begin();
+  ForEachCounter(sums, [&next](const char*, std::int64_t& mine) { mine += *next++; });
 }
 
 // All that a unit, a block or a whole campaign counts.
