@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/many.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -17,6 +15,7 @@
 #include "certify/request/request.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
+#include "python/module.h"
 #include "python/signals.h"
 
 namespace stiction {

@@ -4,6 +4,8 @@
 // Answers are those of the program's --json, as dictionaries and lists; stiction/__init__.py gives them types.
 // Whatever computes does so without the interpreter's lock.
 
+#include "python/module.h"
+
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -39,10 +41,7 @@
 #include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
-#include "python/many.h"
-#include "python/search.h"
 #include "python/signals.h"
-#include "python/simulate.h"
 #include "reports/pictures/problem_picture.h"
 #include "reports/viewer.h"
 #include "search/campaign.h"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/no_solution.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/solve.h"
 #include "corpus/rounded.h"

@@ -3,7 +3,7 @@
 // of none.
 //
 // Words are searched depth first by their prefixes, the contacts behind a prefix relaxed (RelaxedCone). An
-// infeasible prefix ends the search below it with one Farkas vector (no_solution.h), which refutes all its
+// infeasible prefix ends the search below it with one Farkas vector (no_solution.cpp), which refutes all its
 // completions.
 //
 // In space a word is refuted, or it is left open (RefuteInSpace): its programs have polygons around the
@@ -36,7 +36,7 @@ struct WordSolution {
 
 struct RefutedPrefix {
   ModeWord modes;
-  ExactVector y;  // integers without a common factor; no_solution.h says what it proves
+  ExactVector y;  // integers without a common factor; no_solution.cpp says what it proves
 };
 
 enum class EnumerationEnd : std::uint8_t { kComplete, kStopped, kLimit, kOpen };

@@ -17,7 +17,7 @@
 // finite union of polyhedra, one per word; a degenerate solution lies in several.
 //
 // In space a static contact has break and touch whatever its mu; touch is fN >= 0, aN = 0, fF.fF <= mu^2 fN^2,
-// aF free, which is no more than what its law implies. So words there can refute (no_solution.h), and not
+// aF free, which is no more than what its law implies. So words there can refute (no_solution.cpp), and not
 // solve.
 
 #ifndef STICTION_CERTIFY_EXACT_MODES_H_

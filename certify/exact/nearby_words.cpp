@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/exact/lifted_equations.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
