@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "corpus/json.h"
-#include "reports/html/template.h"
+#include "reports/html/html.h"
 #include "reports/viewer_template.h"
 
 namespace stiction {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -68,6 +69,11 @@ std::string Significant(double x, int digits = 5);
 
 // Sum per count, in two or three digits; "" of nothing.
 std::string Mean(std::int64_t sum, std::int64_t count);
+
+// ---- Pages that the build has joined (web/join.py), and that the program fills ----
+
+// The page with each mark, {{NAME}}, replaced. InternalError if one does not stand there exactly once.
+std::string FilledTemplate(std::string_view page, const std::map<std::string, Html>& marks);
 
 }  // namespace stiction
 
