@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What suites print: tables, for people and for JSON; and on standard error how far they are.
 
-#ifndef STICTION_BENCH_OUTPUT_H_
-#define STICTION_BENCH_OUTPUT_H_
+#pragma once
 
 #include <cstdint>
 #include <cstdio>
@@ -37,5 +36,3 @@ void Done(std::int64_t steps = 1);
 void Clear();
 
 }  // namespace stiction::progress
-
-#endif  // STICTION_BENCH_OUTPUT_H_

@@ -6,8 +6,7 @@
 // `.stiction-PID-N` beside the target; a name that something has is passed over. The target itself may be a
 // link: the file that it leads to is replaced. Pipes and devices are written directly.
 
-#ifndef STICTION_CORPUS_ATOMIC_FILE_H_
-#define STICTION_CORPUS_ATOMIC_FILE_H_
+#pragma once
 
 #include <filesystem>
 #include <string_view>
@@ -28,5 +27,3 @@ void WriteNew(const std::filesystem::path& file, std::string_view text);
 void SyncFolder(const std::filesystem::path& folder);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_ATOMIC_FILE_H_

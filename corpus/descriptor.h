@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An open file that closes itself, and a text that is written to one.
 
-#ifndef STICTION_CORPUS_DESCRIPTOR_H_
-#define STICTION_CORPUS_DESCRIPTOR_H_
+#pragma once
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -55,5 +54,3 @@ inline Descriptor FileInMemory(const char* name, std::string_view text = {}) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_DESCRIPTOR_H_

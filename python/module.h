@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of the Python package that stand in sources of their own.
 
-#ifndef STICTION_PYTHON_MODULE_H_
-#define STICTION_PYTHON_MODULE_H_
+#pragma once
 
 #include <pybind11/numpy.h>
 
@@ -27,5 +26,3 @@ void AddSearch(pybind11::module_& module);
 void AddSimulate(pybind11::module_& module);
 
 }  // namespace stiction
-
-#endif  // STICTION_PYTHON_MODULE_H_

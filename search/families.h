@@ -2,8 +2,7 @@
 // Families of problems, a generator at one number of contacts each: which of those of a campaign a store has
 // tried.
 
-#ifndef STICTION_SEARCH_FAMILIES_H_
-#define STICTION_SEARCH_FAMILIES_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -29,5 +28,3 @@ std::string FamiliesText(const Store& store, const std::string& file);
 Json FamiliesToJson(const Store& store);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_FAMILIES_H_

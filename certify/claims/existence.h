@@ -11,8 +11,7 @@
 // bound, or of (21), (22); then words of touching and separated contacts, which may refute both laws
 // (no_solution.cpp).
 
-#ifndef STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
-#define STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
+#pragma once
 
 #include "certify/claims/claim_answer.h"
 #include "certify/exact/enumerate.h"
@@ -35,5 +34,3 @@ Json NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enume
 Json CheckNoSolution(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_EXISTENCE_H_

@@ -15,8 +15,7 @@
 //               it says is believed: witnesses and Farkas vectors are verified here over rationals.
 // Determinism   the result depends on the problem alone.
 
-#ifndef STICTION_CERTIFY_EXACT_ENUMERATE_H_
-#define STICTION_CERTIFY_EXACT_ENUMERATE_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -73,5 +72,3 @@ Enumeration RefuteInSpace(const ExactProblem& problem, const Request& request = 
                           const EnumerationWatch& watch = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_ENUMERATE_H_

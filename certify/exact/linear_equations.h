@@ -5,8 +5,7 @@
 //         1982.
 // Cost    of lifting: O(size^3) operations on machine words, and size^2 for each digit of the solution.
 
-#ifndef STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_
-#define STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_
+#pragma once
 
 #include <optional>
 
@@ -27,5 +26,3 @@ std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVecto
                                           const ExactVector& guess);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_

@@ -20,8 +20,7 @@
 // aF free, which is no more than what its law implies. So words there can refute (no_solution.cpp), and not
 // solve.
 
-#ifndef STICTION_CERTIFY_EXACT_MODES_H_
-#define STICTION_CERTIFY_EXACT_MODES_H_
+#pragma once
 
 #include <cstdint>
 #include <span>
@@ -77,5 +76,3 @@ bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const Exact
                 const ExactVector& a);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_MODES_H_

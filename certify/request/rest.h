@@ -11,8 +11,7 @@
 // corners are added where the programs say; there none may be found though there are some. A group with a
 // sliding contact is left.
 
-#ifndef STICTION_CERTIFY_REQUEST_REST_H_
-#define STICTION_CERTIFY_REQUEST_REST_H_
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -45,5 +44,3 @@ void PreferRest(const ContactProblem<double>& rounded, const std::function<const
                 const Request& request, InexactAnswer& answer);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_REST_H_

@@ -8,8 +8,7 @@
 //             then that of the second run, forces and all; `suspected` says what the first one said.
 //   exact     exact/solve.h.
 
-#ifndef STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
-#define STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -67,5 +66,3 @@ InexactAnswer SolveWithoutA(const AnyProblem& problem, const Request& request);
 Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_SOLVE_IN_H_

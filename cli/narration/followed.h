@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a path method, told: for `replay`, for its page, and for the page that runs again in a browser.
 
-#ifndef STICTION_CLI_NARRATION_FOLLOWED_H_
-#define STICTION_CLI_NARRATION_FOLLOWED_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -51,5 +50,3 @@ FollowedRun Followed(const Request& asked, const ProblemFile& file, const Soluti
 Json ReplayPageData(const ProblemFile& file, const Json& picture, const std::vector<FollowedRun>& runs);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_FOLLOWED_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The data of the page of a run, for the program and for Python.
 
-#ifndef STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
-#define STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -20,5 +19,3 @@ Json PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::string&
                const Solution& solution, const std::optional<InexactAnswer>& over_intervals);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_PAGE_OF_RUN_H_

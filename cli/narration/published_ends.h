@@ -2,8 +2,7 @@
 // How the published algorithm ends on a problem besides the run that is told: under all readings of its text;
 // in space over intervals, which prove what they decide.
 
-#ifndef STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_
-#define STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_
+#pragma once
 
 #include <map>
 #include <optional>
@@ -32,5 +31,3 @@ std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Re
 std::string OverIntervalsText(const InexactAnswer& answer);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_

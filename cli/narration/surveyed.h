@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a survey finds of one problem: which of the paper's assumptions it meets, what solves it, and how well.
 
-#ifndef STICTION_CLI_NARRATION_SURVEYED_H_
-#define STICTION_CLI_NARRATION_SURVEYED_H_
+#pragma once
 
 #include <string>
 
@@ -32,5 +31,3 @@ std::string AssumptionsMetText(const Json& facts);
 std::string RunsText(const Json& facts);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_SURVEYED_H_

@@ -2,8 +2,7 @@
 // Counts: what came of runs, added up. Whoever tells a number of runs, or a rate, takes both of its counts from
 // one of these, so that summary, text, page, comparison and papers agree.
 
-#ifndef STICTION_CORPUS_RECORD_COUNTS_H_
-#define STICTION_CORPUS_RECORD_COUNTS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -51,5 +50,3 @@ auto SumOf(const CountersByContacts& by_contacts) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_COUNTS_H_

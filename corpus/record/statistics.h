@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics of a campaign: counters that merge by addition, in any order.
 
-#ifndef STICTION_CORPUS_RECORD_STATISTICS_H_
-#define STICTION_CORPUS_RECORD_STATISTICS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -299,5 +298,3 @@ std::string Serialize(const Record& record);
 Record ParseRecord(const std::string& text, const std::string& source = "record");
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_STATISTICS_H_

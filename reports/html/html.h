@@ -2,8 +2,7 @@
 // HTML and SVG, escaped by construction: whatever does not come from our own source text becomes Html only
 // through Text(), an attribute's value or ScriptData(), and all of them escape.
 
-#ifndef STICTION_REPORTS_HTML_HTML_H_
-#define STICTION_REPORTS_HTML_HTML_H_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -76,5 +75,3 @@ std::string Mean(std::int64_t sum, std::int64_t count);
 std::string FilledTemplate(std::string_view page, const std::map<std::string, Html>& marks);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_HTML_HTML_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for lemke.h.
 
-#ifndef STICTION_SOLVER_LEMKE_LEMKE_IPP_
-#define STICTION_SOLVER_LEMKE_LEMKE_IPP_
+#pragma once
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -617,5 +616,3 @@ void LemkeAlgorithm<Scalar, Rows>::RecordPoint(int row) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LEMKE_LEMKE_IPP_

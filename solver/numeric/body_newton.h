@@ -21,8 +21,7 @@
 // Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Doubles.
 // Cost    a sparse LDL' or, where something slips, LU factorization per step of Newton's method.
 
-#ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
-#define STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
+#pragma once
 
 #include <Eigen/SparseCholesky>
 #include <vector>
@@ -113,5 +112,3 @@ class BodyNewton {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_

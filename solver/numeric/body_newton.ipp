@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions of body_newton.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_
-#define STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_
+#pragma once
 
 #include <algorithm>
 #include <limits>
@@ -342,5 +341,3 @@ auto BodyNewton<Scalar>::Solved(const Vector& y) -> Vector {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_

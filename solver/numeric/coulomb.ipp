@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for coulomb.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_COULOMB_IPP_
-#define STICTION_SOLVER_NUMERIC_COULOMB_IPP_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -407,5 +406,3 @@ auto CoulombSolver<Scalar, ProblemType>::SlopeOf(int i) const -> ContactSlope<Sc
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_COULOMB_IPP_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for fast.h, in its order.
 
-#ifndef STICTION_SOLVER_NUMERIC_FAST_IPP_
-#define STICTION_SOLVER_NUMERIC_FAST_IPP_
+#pragma once
 
 #include <algorithm>
 #include <limits>
@@ -583,5 +582,3 @@ void FastSolver<Scalar>::Leave(int j) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_FAST_IPP_

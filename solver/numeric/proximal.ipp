@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions of proximal.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_
-#define STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_
+#pragma once
 
 #include <Eigen/SparseLU>
 #include <limits>
@@ -192,5 +191,3 @@ bool ProximalNewton<Scalar>::SolveCells() {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for reduction.h.
 
-#ifndef STICTION_SOLVER_PROBLEM_REDUCTION_IPP_
-#define STICTION_SOLVER_PROBLEM_REDUCTION_IPP_
+#pragma once
 
 #include <algorithm>
 
@@ -168,5 +167,3 @@ ReductionEnd Reduction<Scalar>::Classify(const Matrix& A, const Vector& b, const
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_REDUCTION_IPP_

@@ -17,8 +17,7 @@
 // positive factor per contact, A -> D A D, b -> D b, f -> D^-1 f, units change as accelerations and forces do.
 // mu is never divided by. Shapes: rows. Units: m/s^2, N. Memory is kept between calls.
 
-#ifndef STICTION_SOLVER_PROBLEM_UNITS_H_
-#define STICTION_SOLVER_PROBLEM_UNITS_H_
+#pragma once
 
 #include <algorithm>
 #include <numeric>
@@ -178,5 +177,3 @@ class LenientUnits {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_UNITS_H_

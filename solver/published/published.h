@@ -15,8 +15,7 @@
 // suspicion: forces are compared after rounding, and callers run the problem again exactly before they claim
 // anything.
 
-#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
-#define STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -148,5 +147,3 @@ class PublishedAlgorithm {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
