@@ -12,6 +12,7 @@
 #include "certify/claims/safe.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {
@@ -19,11 +20,9 @@ namespace {
 // Every static contact's friction row, the normal row being the one before it.
 template <class Visit>
 void ForEachFriction(const ExactProblem& problem, const Visit& visit) {
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    if (contact.HasFrictionRows()) visit(contact, row + 1);
-    row += contact.HasFrictionRows() ? 2 : 1;
-  }
+  ForEachContact(problem, [&](int i, int row, int count) {
+    if (count > 1) visit(problem.contacts[i], row + 1);
+  });
 }
 
 Rational LargestRatio(const ExactProblem& problem, const ExactVector& d, FrictionWeights weights) {

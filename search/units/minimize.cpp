@@ -47,15 +47,11 @@ ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>
 ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
   std::vector<Contact<Rational>> contacts;
   std::vector<int> rows;
-  int row = 0;
-  for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
-    const int size = problem.contacts[contact].HasFrictionRows() ? problem.dimension : 1;
-    if (contact != dropped) {
-      contacts.push_back(problem.contacts[contact]);
-      for (int k = 0; k < size; ++k) rows.push_back(row + k);
-    }
-    row += size;
-  }
+  ForEachContact(problem, [&](int contact, int row, int size) {
+    if (contact == dropped) return;
+    contacts.push_back(problem.contacts[contact]);
+    for (int k = 0; k < size; ++k) rows.push_back(row + k);
+  });
   return Restrict(problem, std::move(contacts), rows);
 }
 

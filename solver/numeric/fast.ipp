@@ -63,11 +63,7 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
     correction_.resize(rows + 1);
     factor_.Reserve(rows);
   }
-  int row = 0;
-  for (int contact = 0; contact < contacts; ++contact) {
-    row_of_[contact] = row;
-    row += problem.contacts[contact].HasFrictionRows() ? 2 : 1;
-  }
+  ForEachContact(problem, [this](int contact, int row, int) { row_of_[contact] = row; });
   frictionless_ = rows == contacts;
   distrust_ = false;
   shift_ = Scalar(0);

@@ -80,12 +80,7 @@ void ProximalNewton<Scalar>::Start(const Problem& problem) {
     if (!(d > 0)) d = largest > 0 ? largest : Scalar(1);
   }
   proximal_.contacts = problem.contacts;
-  row_of_.clear();
-  int row = 0;
-  for (const auto& contact : problem.contacts) {
-    row_of_.push_back(row);
-    row += contact.HasFrictionRows() ? 2 : 1;
-  }
+  row_of_ = NormalRowsOf(problem);
 }
 
 // The proximal problem of f_.

@@ -93,6 +93,13 @@ void ForEachContact(const Problem& problem, Visit visit) {
     row += count;
   }
 }
+// The normal row of each contact.
+template <class Problem>
+std::vector<int> NormalRowsOf(const Problem& problem) {
+  std::vector<int> rows;
+  ForEachContact(problem, [&rows](int, int row, int) { rows.push_back(row); });
+  return rows;
+}
 
 // The length of the tangential rows of a contact: from `row` + 1 on, one or two, or none.
 template <class Values>
