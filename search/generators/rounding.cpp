@@ -72,13 +72,10 @@ Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
   return Rational(floor);
 }
 
-Rational LargestEntry(const ExactProblem& problem, bool of_A) {
+template <class Numbers>
+Rational LargestEntry(const Numbers& numbers) {
   Rational largest = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    if (!of_A) largest = std::max<Rational>(largest, abs(problem.b[i]));
-    for (int j = 0; of_A && j < problem.rows(); ++j)
-      largest = std::max<Rational>(largest, abs(problem.A(i, j)));
-  }
+  for (const Rational& x : numbers.reshaped()) largest = std::max<Rational>(largest, abs(x));
   return largest;
 }
 
@@ -87,7 +84,7 @@ Rational LargestEntry(const ExactProblem& problem, bool of_A) {
 ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
                        const Ridge& ridge) {
   ExactProblem rounded = problem;
-  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational largest_A = LargestEntry(problem.A), largest_b = LargestEntry(problem.b);
   const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size_A) / largest_A);
   const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(Rational(size_b) / largest_b);
   for (int i = 0; i < problem.rows(); ++i) {
@@ -102,7 +99,7 @@ ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::in
 
 ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots) {
   ExactProblem rounded = problem;
-  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational largest_A = LargestEntry(problem.A), largest_b = LargestEntry(problem.b);
   const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size) / largest_A);
   const Rational size_b(lots.Integer((size + 1) / 2, size));
   const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(size_b / largest_b);

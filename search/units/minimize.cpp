@@ -31,17 +31,7 @@ void ForEachNumber(const ExactProblem& problem, Visit visit) {
 // The problem of the rows that are kept.
 ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>> contacts,
                       const std::vector<int>& rows) {
-  ExactProblem smaller;
-  smaller.dimension = problem.dimension;
-  smaller.contacts = std::move(contacts);
-  const int size = static_cast<int>(rows.size());
-  smaller.A.resize(size, size);
-  smaller.b.resize(size);
-  for (int i = 0; i < size; ++i) {
-    smaller.b[i] = problem.b[rows[i]];
-    for (int j = 0; j < size; ++j) smaller.A(i, j) = problem.A(rows[i], rows[j]);
-  }
-  return smaller;
+  return {problem.dimension, std::move(contacts), problem.A(rows, rows), problem.b(rows)};
 }
 
 ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
