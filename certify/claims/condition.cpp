@@ -116,6 +116,14 @@ Rational TimesPowerOfTwo(const Rational& x, long exponent) {
   return product;
 }
 
+// An unsafe problem shows that its condition number is not enough.
+Json ByCondition(const ExactProblem& problem) {
+  if (auto found = ConditionCertificate(problem)) return std::move(*found);
+  Json safety = SafetyCertificateIfDecided(problem);
+  if (safety.is_object() && safety["claim"] == "unsafe") return safety;
+  return "no scaling was found under which the condition number of A is small enough";
+}
+
 }  // namespace
 
 std::optional<Rational> ConditionBound::SafeFriction() const {
@@ -199,18 +207,6 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
   }
   return {{"condition", ToString(Rational(most / least))}, {"friction", ToString(friction)}};
 }
-
-namespace {
-
-// An unsafe problem shows that its condition number is not enough.
-Json ByCondition(const ExactProblem& problem) {
-  if (auto found = ConditionCertificate(problem)) return std::move(*found);
-  Json safety = SafetyCertificateIfDecided(problem);
-  if (safety.is_object() && safety["claim"] == "unsafe") return safety;
-  return "no scaling was found under which the condition number of A is small enough";
-}
-
-}  // namespace
 
 ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,

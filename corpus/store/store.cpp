@@ -144,6 +144,30 @@ void RefuseForeignDatabase(sqlite3* db, const fs::path& file) {
   }
 }
 
+// Where the work of a unit is kept; empty if the store does not hold it.
+std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
+  Statement open(db, "SELECT shards, shard FROM units WHERE unit = ?");
+  if (open.Bind(unit).Step()) {
+    const Shard shard = ReadShard(open);
+    return WorkKey{shard, BlockOf(shard, unit), unit};
+  }
+  Statement shards(db, "SELECT DISTINCT shards, shard FROM blocks");
+  while (shards.Step()) {
+    const Shard shard = ReadShard(shards);
+    if (shard.Owns(unit) && HoldsBlock(db, shard, BlockOf(shard, unit)))
+      return WorkKey{shard, BlockOf(shard, unit)};
+  }
+  return std::nullopt;
+}
+
+void AddWorkTo(sqlite3* db, std::int64_t unit, const Work& work) {
+  const auto key = WorkKeyOf(db, unit);
+  if (!key || work == Work{}) return;
+  Work sum = ReadWork(db, *key);
+  sum.Add(work);
+  WriteWork(db, *key, sum);
+}
+
 }  // namespace
 
 void Store::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
@@ -464,34 +488,6 @@ void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
   PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, Serialize(sum)});
   WriteWork(db_.get(), {shard, block}, work);
 }
-
-namespace {
-
-// Where the work of a unit is kept; empty if the store does not hold it.
-std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
-  Statement open(db, "SELECT shards, shard FROM units WHERE unit = ?");
-  if (open.Bind(unit).Step()) {
-    const Shard shard = ReadShard(open);
-    return WorkKey{shard, BlockOf(shard, unit), unit};
-  }
-  Statement shards(db, "SELECT DISTINCT shards, shard FROM blocks");
-  while (shards.Step()) {
-    const Shard shard = ReadShard(shards);
-    if (shard.Owns(unit) && HoldsBlock(db, shard, BlockOf(shard, unit)))
-      return WorkKey{shard, BlockOf(shard, unit)};
-  }
-  return std::nullopt;
-}
-
-void AddWorkTo(sqlite3* db, std::int64_t unit, const Work& work) {
-  const auto key = WorkKeyOf(db, unit);
-  if (!key || work == Work{}) return;
-  Work sum = ReadWork(db, *key);
-  sum.Add(work);
-  WriteWork(db, *key, sum);
-}
-
-}  // namespace
 
 void Store::Finish(const Finding& finding, const Work& work) {
   Transaction transaction(db_.get());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corpus/json_text.h"
+#include "corpus/rational.h"
 #include "scene/assemble.h"
 
 namespace stiction {

@@ -25,23 +25,6 @@ ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& 
   return rescaled;
 }
 
-}  // namespace
-
-ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts, problem.dimension);
-  std::vector<Rational> s(problem.rows(), Rational(1));
-  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
-    const int row = layout.NormalRowOf(contact);
-    const Rational& mu = problem.contacts[contact].mu;
-    if (!layout.HasFriction(row) || mu <= 0 || (only_contact >= 0 && only_contact != contact)) continue;
-    for (int t = 1; t < problem.dimension; ++t) s[row + t] = mu;
-  }
-  return Rescaled(problem, s);
-}
-
-namespace {
-
 // The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
 Rational InverseRoot(const Rational& x) {
   if (x <= 0) return 1;
@@ -50,20 +33,6 @@ Rational InverseRoot(const Rational& x) {
   const Rational power(mpz_class(1) << std::abs(half));
   return half < 0 ? Rational(1 / power) : power;
 }
-
-}  // namespace
-
-ExactProblem Equilibrated(const ExactProblem& problem) {
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts, problem.dimension);
-  std::vector<Rational> s(problem.rows());
-  for (int row = 0; row < problem.rows(); ++row) {
-    s[row] = layout.IsNormal(row) ? InverseRoot(problem.A(row, row)) : s[row - 1];
-  }
-  return Stretched(Rescaled(problem, s), -1);
-}
-
-namespace {
 
 Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
   const Rational shifted = x + Rational(1, 2);
@@ -79,7 +48,54 @@ Rational LargestEntry(const Numbers& numbers) {
   return largest;
 }
 
+// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
+// denominators; 1 if all are zero.
+template <class Matrix>
+Rational CommonFactor(const Matrix& numbers) {
+  mpz_class numerator = 0, denominator = 1;
+  for (const Rational& x : numbers.reshaped()) {
+    if (x == 0) continue;
+    numerator = gcd(numerator, x.get_num());
+    denominator = lcm(denominator, x.get_den());
+  }
+  return numerator == 0 ? Rational(1) : Rational(Rational(numerator) / Rational(denominator));
+}
+
+// x to so many significant bits.
+Rational Significant(const Rational& x, int bits) {
+  if (x == 0) return 0;
+  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
+                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
+  const long shift = bits - size;
+  const Rational power(mpz_class(1) << std::abs(shift));
+  const Rational scale = shift < 0 ? Rational(1 / power) : power;
+  return Rounded(Rational(x * scale)) / scale;
+}
+
 }  // namespace
+
+ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts, problem.dimension);
+  std::vector<Rational> s(problem.rows(), Rational(1));
+  for (int contact = 0; contact < layout.ContactCount(); ++contact) {
+    const int row = layout.NormalRowOf(contact);
+    const Rational& mu = problem.contacts[contact].mu;
+    if (!layout.HasFriction(row) || mu <= 0 || (only_contact >= 0 && only_contact != contact)) continue;
+    for (int t = 1; t < problem.dimension; ++t) s[row + t] = mu;
+  }
+  return Rescaled(problem, s);
+}
+
+ExactProblem Equilibrated(const ExactProblem& problem) {
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts, problem.dimension);
+  std::vector<Rational> s(problem.rows());
+  for (int row = 0; row < problem.rows(); ++row) {
+    s[row] = layout.IsNormal(row) ? InverseRoot(problem.A(row, row)) : s[row - 1];
+  }
+  return Stretched(Rescaled(problem, s), -1);
+}
 
 ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
                        const Ridge& ridge) {
@@ -114,23 +130,6 @@ ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots) 
   return rounded;
 }
 
-namespace {
-
-// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
-// denominators; 1 if all are zero.
-template <class Matrix>
-Rational CommonFactor(const Matrix& numbers) {
-  mpz_class numerator = 0, denominator = 1;
-  for (const Rational& x : numbers.reshaped()) {
-    if (x == 0) continue;
-    numerator = gcd(numerator, x.get_num());
-    denominator = lcm(denominator, x.get_den());
-  }
-  return numerator == 0 ? Rational(1) : Rational(Rational(numerator) / Rational(denominator));
-}
-
-}  // namespace
-
 std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& problem) {
   const Rational in_A = CommonFactor(problem.A), in_b = CommonFactor(problem.b);
   ExactProblem divided_A = problem, divided_b = problem;
@@ -138,21 +137,6 @@ std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& p
   for (Rational& x : divided_b.b) x /= in_b;
   return {std::move(divided_A), std::move(divided_b)};
 }
-
-namespace {
-
-// x to so many significant bits.
-Rational Significant(const Rational& x, int bits) {
-  if (x == 0) return 0;
-  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
-                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
-  const long shift = bits - size;
-  const Rational power(mpz_class(1) << std::abs(shift));
-  const Rational scale = shift < 0 ? Rational(1 / power) : power;
-  return Rounded(Rational(x * scale)) / scale;
-}
-
-}  // namespace
 
 std::optional<ExactProblem> WithRoundedFactors(const ExactProblem& problem, int bits) {
   auto decision = DecideSemidefinite(problem.A);
