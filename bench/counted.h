@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A double that counts what is done with it.
 
-#ifndef STICTION_BENCH_COUNTED_H_
-#define STICTION_BENCH_COUNTED_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cmath>
@@ -68,5 +67,3 @@ struct Eigen::NumTraits<stiction::Counted> : Eigen::NumTraits<double> {
   using Nested = stiction::Counted;
   using Literal = stiction::Counted;
 };
-
-#endif  // STICTION_BENCH_COUNTED_H_

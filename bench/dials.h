@@ -7,8 +7,7 @@
 // with one to four contacts as a rule. All numbers come from integers that are drawn, so that they are the same
 // on every machine.
 
-#ifndef STICTION_BENCH_DIALS_H_
-#define STICTION_BENCH_DIALS_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -38,5 +37,3 @@ std::vector<Source> DialSources(Dials which, const std::vector<std::string>& fam
 std::vector<Source> GeneratorSources(const std::vector<int>& sizes);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_DIALS_H_

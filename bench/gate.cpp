@@ -39,9 +39,8 @@
 #include <vector>
 
 #include "bench/dials.h"
-#include "bench/progress.h"
+#include "bench/output.h"
 #include "bench/suite.h"
-#include "bench/table.h"
 #include "certify/exact/neighbour.h"
 #include "certify/request/solve_in.h"
 #include "corpus/exit_code.h"

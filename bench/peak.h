@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one core can do at most in an instruction set: the roof of a roofline.
 
-#ifndef STICTION_BENCH_PEAK_H_
-#define STICTION_BENCH_PEAK_H_
+#pragma once
 
 #include "search/lanes/instructions.h"
 
@@ -19,5 +18,3 @@ struct Peak {
 Peak MeasurePeak(InstructionSet set);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEAK_H_

@@ -12,9 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/progress.h"
+#include "bench/output.h"
 #include "bench/suite.h"
-#include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"

@@ -22,10 +22,9 @@
 #include <thread>
 
 #include "bench/counted.h"
+#include "bench/output.h"
 #include "bench/peak.h"
-#include "bench/progress.h"
 #include "bench/suite.h"
-#include "bench/table.h"
 #include "corpus/exit_code.h"
 #include "corpus/json.h"
 #include "corpus/order_statistics.h"

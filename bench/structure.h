@@ -5,8 +5,7 @@
 // two points, in space in four, so A is singular wherever bodies are stacked, and b is in its range. Random
 // matrices are not so: there A has its rank by construction, and no force is large beside another.
 
-#ifndef STICTION_BENCH_STRUCTURE_H_
-#define STICTION_BENCH_STRUCTURE_H_
+#pragma once
 
 #include "search/generators/choices.h"
 #include "solver/problem/forms.h"
@@ -28,5 +27,3 @@ FactoredProblem<double> WallInFactors(int courses, int bricks, const Building& b
 ContactProblem<double> ChannelProblem(int discs, const Building& building, Choices& choices);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_STRUCTURE_H_

@@ -2,8 +2,7 @@
 // Suites of stiction-bench: what each is, in a table; each measures, prints, and returns an exit code. Studies
 // in Python stand beside them: bench/studies.
 
-#ifndef STICTION_BENCH_SUITE_H_
-#define STICTION_BENCH_SUITE_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -83,5 +82,3 @@ int BenchScenes(const BenchOptions& options);    // scenes.cpp
 int BenchPeers(const BenchOptions& options, std::string_view tables);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_SUITE_H_

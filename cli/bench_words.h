@@ -2,8 +2,7 @@
 // The words of `stiction bench`, as rows: what the program stiction-bench reads, and what the help, the man
 // pages and the completion say of it.
 
-#ifndef STICTION_CLI_BENCH_WORDS_H_
-#define STICTION_CLI_BENCH_WORDS_H_
+#pragma once
 
 #include "bench/suite.h"
 #include "cli/verb.h"
@@ -15,5 +14,3 @@ inline constexpr const char* kBenchPurpose = "Benchmark tables: timings, by hand
 void AddBenchWords(Verb& verb, BenchOptions& o);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_BENCH_WORDS_H_

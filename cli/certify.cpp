@@ -15,7 +15,6 @@
 #include "certify/claims/robust.h"
 #include "certify/claims/robust_scene.h"
 #include "certify/claims/safe.h"
-#include "certify/claims/safety_threshold.h"
 #include "certify/claims/witness.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of the program: its verbs (cli/verb.h), and which of them is meant.
 
-#ifndef STICTION_CLI_COMMAND_LINE_H_
-#define STICTION_CLI_COMMAND_LINE_H_
+#pragma once
 
 #include <deque>
 #include <initializer_list>
@@ -54,5 +53,3 @@ struct ListedVerb {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_COMMAND_LINE_H_

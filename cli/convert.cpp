@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 #include <vector>
 
 #include "corpus/descriptor.h"
@@ -56,15 +54,8 @@ int Run(std::vector<std::string> words, int input, int output) {
 }  // namespace
 
 std::string Converted(const std::string& svg, const std::string& format) {
-  const Descriptor input(memfd_create("svg", MFD_CLOEXEC)), output(memfd_create("picture", MFD_CLOEXEC));
-  std::string_view rest = svg;
-  while (input.valid() && !rest.empty()) {
-    const ssize_t count = write(input.number(), rest.data(), rest.size());
-    if (count <= 0) break;
-    rest.remove_prefix(static_cast<std::size_t>(count));
-  }
-  if (!rest.empty() || !output.valid()) throw InputError("--output: no memory for the picture");
-  lseek(input.number(), 0, SEEK_SET);
+  const Descriptor input = FileInMemory("svg", svg), output = FileInMemory("picture");
+  if (!input.valid() || !output.valid()) throw InputError("--output: no memory for the picture");
   std::vector<std::string> words = {kConverter, "--format", format};
   if (format == "png") words.insert(words.end(), {"--zoom", "2"});
   const int status = Run(std::move(words), input.number(), output.number());

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures in other formats, by the program rsvg-convert (librsvg, cairo).
 
-#ifndef STICTION_CLI_CONVERT_H_
-#define STICTION_CLI_CONVERT_H_
+#pragma once
 
 #include <string>
 
@@ -13,5 +12,3 @@ namespace stiction {
 std::string Converted(const std::string& svg, const std::string& format);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_CONVERT_H_

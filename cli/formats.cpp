@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "cli/command_line.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"

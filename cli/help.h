@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What --help says, from the rows of the verbs.
 
-#ifndef STICTION_CLI_HELP_H_
-#define STICTION_CLI_HELP_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -35,5 +34,3 @@ std::string HelpEntry(const std::string& term, const std::string& meaning);
 std::string Nearest(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_HELP_H_

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// stiction methods: the table of methods, as the program reads it.
+// stiction methods, policies: the table of methods, as the program reads it, and the readings of the published
+// text.
 
 #include <fmt/format.h>
 
@@ -8,7 +9,7 @@
 #include "certify/request/solve_in.h"
 #include "cli/command_line.h"
 #include "cli/narration/listed.h"
-#include "corpus/exit_code.h"
+#include "cli/shared.h"
 #include "corpus/plain_text.h"
 
 namespace stiction {
@@ -46,8 +47,23 @@ std::string Facts() {
   return text;
 }
 
-int List(const bool& json) {
+int ListMethods(const bool& json) {
   std::cout << (json ? JsonText(MethodsToJson()) + "\n" : Table() + Folded(Facts()));
+  return kExitDone;
+}
+
+int ListPolicies(const bool& json) {
+  if (json) {
+    std::cout << JsonText(PoliciesToJson()) << "\n";
+    return kExitDone;
+  }
+  for (const PolicySwitchRow& row : PolicySwitches()) {
+    Tell("{}: {}{}\n    {}\n", row.name, row.question, row.planar ? "" : " (not in the planar grid)",
+         row.reads);
+    for (const PolicyValue& value : row.values) Tell("    {:14}  {}\n", value.name, value.meaning);
+  }
+  Tell("The first value of each switch is the reference policy, 'paper'. Planar grid: {} policies.\n",
+       PlanarGrid().size());
   return kExitDone;
 }
 
@@ -55,12 +71,20 @@ int List(const bool& json) {
 
 const ListedVerb kMethodsVerb("Solve", 40, [](CommandLine& program) {
   auto [verb, json] =
-      program.Add("methods", "The methods, what their ends prove, and where they are built", List);
+      program.Add("methods", "The methods, what their ends prove, and where they are built", ListMethods);
   verb.Prints(json, "the methods, and in which arithmetics they are built", R"([{
       name: method, title: text, source: text,
       ends: text,  // what its end proves
       path: truth,  // whether it can be replayed
       plane: [arithmetic], space: [arithmetic]}])");
+});
+
+const ListedVerb kPoliciesVerb("Show", 20, [](CommandLine& program) {
+  auto [verb, json] = program.Add("policies", "The policies: readings of the published text", ListPolicies);
+  verb.Prints(json, "the switches of the policies", R"([{
+      switch: text, question: text, planar: truth,
+      reads: text,  // the sentence of the paper
+      values: [{value: text, meaning: text}+]}])");
 });
 
 }  // namespace stiction

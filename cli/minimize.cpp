@@ -4,7 +4,6 @@
 #include "search/units/minimize.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <iostream>
@@ -17,7 +16,6 @@
 #include "cli/shared.h"
 #include "corpus/grouped.h"
 #include "search/adversary/minimize_candidate.h"
-#include "search/units/finish.h"
 #include "search/units/signature.h"
 
 namespace stiction {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -199,19 +198,6 @@ std::vector<std::string> EnvironmentOf(const Finding& finding, const std::string
   return variables;
 }
 
-// A file in memory with this text, at its beginning.
-Descriptor InMemory(const std::string& text) {
-  Descriptor file(memfd_create("finding", MFD_CLOEXEC));
-  std::size_t written = 0;
-  while (file.valid() && written < text.size()) {
-    const ssize_t count = write(file.number(), text.data() + written, text.size() - written);
-    if (count <= 0) break;
-    written += static_cast<std::size_t>(count);
-  }
-  if (file.valid()) lseek(file.number(), 0, SEEK_SET);
-  return file;
-}
-
 // In a group of its own: a signal of the terminal that ends the search does not end it, and all of it can be
 // killed. Zero if it cannot be started; errno says why.
 pid_t Start(const std::string& command, int input, const std::vector<std::string>& variables) {
@@ -254,7 +240,7 @@ std::string WaitFor(pid_t id) {
 }  // namespace
 
 void RunOnFinding(const std::string& command, const std::string& store, const Finding& finding) {
-  const Descriptor input = InMemory(JsonText(ToJson(finding)) + "\n");
+  const Descriptor input = FileInMemory("finding", JsonText(ToJson(finding)) + "\n");
   const pid_t id = input.valid() ? Start(command, input.number(), EnvironmentOf(finding, store)) : 0;
   const std::string trouble = id > 0 ? WaitFor(id) : fmt::format("cannot be started: {}", std::strerror(errno));
   if (!trouble.empty())

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a search says while it runs: a bar on a terminal, dated lines in a log, a command for every finding.
 
-#ifndef STICTION_CLI_NIGHT_H_
-#define STICTION_CLI_NIGHT_H_
+#pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,5 +53,3 @@ void RunOnFinding(const std::string& command, const std::string& store, const Fi
 SharedJson ToJson(const Finding& finding);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NIGHT_H_

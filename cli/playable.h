@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the viewer plays: a run that is followed, what intervals say of it, and beside it complete driving.
 
-#ifndef STICTION_CLI_PLAYABLE_H_
-#define STICTION_CLI_PLAYABLE_H_
+#pragma once
 
 #include <optional>
 #include <string>
 
 #include "certify/request/request.h"
-#include "certify/request/solve_in.h"
 #include "corpus/record/problem_file.h"
 #include "reports/viewer.h"
 
@@ -26,5 +24,3 @@ std::optional<Playable> PlayFinding(const ProblemFile& file, const std::string& 
                                     const std::string& path);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_PLAYABLE_H_

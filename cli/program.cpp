@@ -14,7 +14,6 @@
 #include <iostream>
 #include <new>
 #include <streambuf>
-#include <string>
 #include <string_view>
 
 #include "corpus/exit_code.h"

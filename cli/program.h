@@ -2,8 +2,7 @@
 // The frame of a program: how what is thrown ends, in one line and with the exit code that it has, and how
 // commands in its texts are called.
 
-#ifndef STICTION_CLI_PROGRAM_H_
-#define STICTION_CLI_PROGRAM_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ std::string AsTyped(std::string text);
 int RunProgram(int argc, char** argv, int (*run)(int argc, char** argv));
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_PROGRAM_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The records that stand beside the program.
 
-#ifndef STICTION_CLI_RECORDS_H_
-#define STICTION_CLI_RECORDS_H_
+#pragma once
 
 #include <filesystem>
 #include <vector>
@@ -20,5 +19,3 @@ std::vector<FrontierLine> KnownFrontiers();
 OwnSearch OwnSearchOf(const Store& store);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_RECORDS_H_

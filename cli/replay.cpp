@@ -2,7 +2,6 @@
 // stiction replay: a path method on one problem, step by step, exactly where it is built so.
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <iostream>
 #include <map>
@@ -16,7 +15,6 @@
 #include "cli/command_line.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
-#include "cli/narration/problem_text.h"
 #include "cli/narration/published_ends.h"
 #include "cli/playable.h"
 #include "cli/shared.h"
@@ -44,6 +42,40 @@ struct ReplayOptions : Wanted {
 
   FractionText as() const { return fractions ? FractionText::kFull : FractionText::kShort; }
 };
+
+// ---- What stands before a run ----------------------------------------------------------------
+
+std::string FrictionText(const ExactProblem& problem, FractionText fractions) {
+  std::string text;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const Contact<Rational>& contact = problem.contacts[i];
+    const bool rubs = contact.kind == ContactKind::kStatic || contact.kind == ContactKind::kSliding;
+    text += fmt::format("{}contact {} {}", i == 0 ? "  " : ", ", i + 1,
+                        rubs ? "mu = " + Text(contact.mu, fractions) : std::string(Name(contact.kind)));
+  }
+  return text + "\n";
+}
+
+// A and b as a table with the names of the variables, and mu of every contact. Of many rows only how many there
+// are.
+std::string ProblemText(const ExactProblem& problem, FractionText fractions) {
+  constexpr int kMostRows = 24;
+  const int rows = static_cast<int>(problem.rows());
+  if (rows == 0) return "The problem has no contact.\n";
+  if (rows > kMostRows) return fmt::format("The problem a = A f + b has {} rows: see its file.\n", rows);
+  const VariableTexts names(problem);
+  std::vector<std::string> head = {"a = A f + b"};
+  for (int j = 0; j < rows; ++j) head.push_back("f_" + names.Component(j));
+  head.emplace_back("b");
+  TextTable table(std::move(head), 1);
+  for (int i = 0; i < rows; ++i) {
+    std::vector<std::string> row = {"  a_" + names.Component(i)};
+    for (int j = 0; j < rows; ++j) row.push_back(Text(problem.A(i, j), fractions));
+    row.push_back(Text(problem.b[i], fractions));
+    table.AddRow(std::move(row));
+  }
+  return "The problem:\n" + table.Done() + FrictionText(problem, fractions) + "\n";
+}
 
 // ---- One policy ------------------------------------------------------------------------------
 

@@ -19,6 +19,7 @@
 #include "corpus/output_error.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/record/scene_problems.h"
+#include "corpus/rounded.h"
 #include "reports/animation.h"
 #include "reports/pictures/draw.h"
 #include "reports/pictures/rounded_scene.h"
@@ -127,28 +128,17 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
   ProblemFile file;
   file.name = name;
   file.origin = origin;
-  ExactProblem unrounded;
-  unrounded.dimension = problem.dimension;
-  const auto exact_of = [&name](const char* where, double x) {
-    if (std::isfinite(x)) return Rational(x);
+  const auto require_finite = [&name](const char* where, bool is_finite) {
+    if (is_finite) return;
     throw InputError(name, where, "a number beyond those that double holds",
                      "lengths, masses, velocities and forces of the scene from 1e-100 to 1e100");
   };
-  for (const auto& contact : problem.contacts) {
-    Contact<Rational> exact;
-    exact.kind = contact.kind;
-    exact.mu = exact_of("mu", contact.mu);
-    if (contact.kind == ContactKind::kSliding)
-      exact.slip = ExactDirection<Rational>(MakeVector2<Rational>(contact.slip[0], contact.slip[1]));
-    unrounded.contacts.push_back(exact);
-  }
-  const int rows = problem.rows();
-  unrounded.A.resize(rows, rows);
-  unrounded.b.resize(rows);
-  for (int i = 0; i < rows; ++i) {
-    unrounded.b[i] = exact_of("b", problem.b[i]);
-    for (int j = 0; j < rows; ++j) unrounded.A(i, j) = exact_of("A", problem.A(i, j));
-  }
+  for (const auto& contact : problem.contacts) require_finite("mu", std::isfinite(contact.mu));
+  require_finite("b", problem.b.allFinite());
+  require_finite("A", problem.A.allFinite());
+  ExactProblem unrounded = Unrounded(problem);
+  for (auto& [kind, mu, slip] : unrounded.contacts)
+    if (kind == ContactKind::kSliding) slip = ExactDirection<Rational>(MakeVector2<Rational>(slip[0], slip[1]));
   file.problem = std::move(unrounded);
   return file;
 }

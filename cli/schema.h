@@ -14,8 +14,7 @@
 //
 // What follows // on a line describes the member that stands before it.
 
-#ifndef STICTION_CLI_SCHEMA_H_
-#define STICTION_CLI_SCHEMA_H_
+#pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -34,5 +33,3 @@ const std::vector<NamedShape>& NamedShapes();
 nlohmann::ordered_json SchemaOf(std::string_view title, std::string_view description, std::string_view shape);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_SCHEMA_H_

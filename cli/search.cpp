@@ -41,7 +41,6 @@
 #include "search/under_test/solver_report.h"
 #include "search/units/known_signatures.h"
 #include "search/units/regenerate.h"
-#include "search/units/unit.h"
 
 namespace stiction {
 namespace {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/shared.h"
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include <algorithm>
 #include <csignal>
-#include <iostream>
 #include <sstream>
 
 #include "certify/request/request.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pieces that several verbs share.
 
-#ifndef STICTION_CLI_SHARED_H_
-#define STICTION_CLI_SHARED_H_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include <iostream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/narration/outcome_text.h"
 #include "cli/verb.h"
@@ -69,5 +67,3 @@ inline constexpr const char* kFileDetails =
     "stiction-problem, short or whole; scene of one problem; Siconos .dat; FCLIB .hdf5; STORE:FINDING";
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_SHARED_H_

@@ -15,7 +15,6 @@
 #include "cli/command_line.h"
 #include "cli/shared.h"
 #include "cli/slurm.sh_in.h"
-#include "corpus/atomic_file.h"
 #include "corpus/plain_text.h"
 #include "corpus/text_template.h"
 #include "search/campaign.h"

@@ -25,7 +25,6 @@
 #include "cli/command_line.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"
-#include "cli/narration/problem_text.h"
 #include "cli/program.h"
 #include "cli/shared.h"
 #include "corpus/input_error.h"

@@ -16,7 +16,6 @@
 #include "certify/request/facts.h"
 #include "cli/command_line.h"
 #include "cli/shared.h"
-#include "corpus/formats/formats.h"
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 

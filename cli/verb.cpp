@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <type_traits>
-#include <utility>
 
 #include "cli/help.h"
 #include "corpus/named_rows.h"

@@ -18,8 +18,7 @@
 // numbers are whole words in decimal, an optional stays empty where nothing is given, a vector takes one word
 // or more. A flag turns its bool over, so that "--no-svg" is bound to a field that is true.
 
-#ifndef STICTION_CLI_VERB_H_
-#define STICTION_CLI_VERB_H_
+#pragma once
 
 #include <cstdint>
 #include <deque>
@@ -122,5 +121,3 @@ class Verb {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_VERB_H_

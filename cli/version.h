@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What this build was made of.
 
-#ifndef STICTION_CLI_VERSION_H_
-#define STICTION_CLI_VERSION_H_
+#pragma once
 
 #include <string>
 
@@ -13,5 +12,3 @@ std::string BuildId();
 std::string Version();
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_VERSION_H_

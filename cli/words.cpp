@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
-#include <string_view>
 #include <vector>
 
 #include "cli/command_line.h"

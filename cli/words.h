@@ -2,8 +2,7 @@
 // The words of answers and replays, in one table, words.json: what `stiction words`, the man page and the end
 // of a replay say.
 
-#ifndef STICTION_CLI_WORDS_H_
-#define STICTION_CLI_WORDS_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -22,5 +21,3 @@ std::string MeaningOf(const Json& word);
 std::string GlossaryOf(std::string_view text);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_WORDS_H_

@@ -47,13 +47,8 @@ bool IsWrittenDirectly(const fs::path& file) {
 
 fs::path FolderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-void WriteAll(int descriptor, std::string_view text, const fs::path& file) {
-  while (!text.empty()) {
-    const ssize_t written = write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) RefuseOutput(file, errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
+void WriteTo(int descriptor, std::string_view text, const fs::path& file) {
+  if (!WriteAll(descriptor, text)) RefuseOutput(file, errno);
 }
 
 // Some file systems have nothing to bring to the disk, and say so.
@@ -67,7 +62,7 @@ constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
 void WriteOpened(const fs::path& file, int flags, std::string_view text) {
   Descriptor out(open(file.c_str(), flags, 0666));
   if (!out.valid()) RefuseOutput(file, errno);
-  WriteAll(out.number(), text, file);
+  WriteTo(out.number(), text, file);
   if (out.Close() != 0) RefuseOutput(file, errno);
 }
 
@@ -91,7 +86,7 @@ class Replacement {
     if (!name_.empty()) unlink(name_.c_str());
   }
 
-  void Write(std::string_view text) { WriteAll(out_.number(), text, target_); }
+  void Write(std::string_view text) { WriteTo(out_.number(), text, target_); }
 
   void Commit() {
     Sync(out_.number(), target_);
@@ -127,7 +122,7 @@ void WriteText(const fs::path& file, std::string_view text) {
   if (IsStandardOutput(file)) {
     std::cout.flush();  // whose text is for people (cli/program.cpp)
     std::fflush(stdout);
-    return WriteAll(STDOUT_FILENO, text, "standard output");
+    return WriteTo(STDOUT_FILENO, text, "standard output");
   }
   const fs::path target = Followed(file);
   if (IsWrittenDirectly(target)) return WriteOpened(target, O_WRONLY | O_TRUNC | O_CLOEXEC, text);

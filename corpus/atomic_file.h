@@ -6,11 +6,9 @@
 // `.stiction-PID-N` beside the target; a name that something has is passed over. The target itself may be a
 // link: the file that it leads to is replaced. Pipes and devices are written directly.
 
-#ifndef STICTION_CORPUS_ATOMIC_FILE_H_
-#define STICTION_CORPUS_ATOMIC_FILE_H_
+#pragma once
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 namespace stiction {
@@ -29,5 +27,3 @@ void WriteNew(const std::filesystem::path& file, std::string_view text);
 void SyncFolder(const std::filesystem::path& folder);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_ATOMIC_FILE_H_

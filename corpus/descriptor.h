@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// An open file that closes itself.
+// An open file that closes itself, and a text that is written to one.
 
-#ifndef STICTION_CORPUS_DESCRIPTOR_H_
-#define STICTION_CORPUS_DESCRIPTOR_H_
+#pragma once
 
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <string_view>
 #include <utility>
 
 namespace stiction {
@@ -32,6 +34,23 @@ class Descriptor {
   int number_ = -1;
 };
 
-}  // namespace stiction
+// All of it; false where that cannot be, and errno says why.
+inline bool WriteAll(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
 
-#endif  // STICTION_CORPUS_DESCRIPTOR_H_
+// A file in memory with this text, at its beginning; not valid where there is no memory for it.
+inline Descriptor FileInMemory(const char* name, std::string_view text = {}) {
+  Descriptor file(memfd_create(name, MFD_CLOEXEC));
+  if (!file.valid() || !WriteAll(file.number(), text)) return {};
+  lseek(file.number(), 0, SEEK_SET);
+  return file;
+}
+
+}  // namespace stiction

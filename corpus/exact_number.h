@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of files, exactly: what problem files and scene files accept.
 
-#ifndef STICTION_CORPUS_EXACT_NUMBER_H_
-#define STICTION_CORPUS_EXACT_NUMBER_H_
+#pragma once
 
 #include "corpus/json_text.h"
 #include "corpus/rational.h"
@@ -18,5 +17,3 @@ inline constexpr std::size_t kMostCharactersOfNumber = 40000;
 Rational ExactNumber(const JsonPlace& place, bool strict = false);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_EXACT_NUMBER_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A problem over rationals, as files and certificates have it: of any form, and of each.
 
-#ifndef STICTION_CORPUS_EXACT_PROBLEM_H_
-#define STICTION_CORPUS_EXACT_PROBLEM_H_
+#pragma once
 
 #include <string_view>
 
@@ -20,5 +19,3 @@ using ExactFactors = AnyProblem::Factored;
 std::string_view Name(ContactKind kind);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_EXACT_PROBLEM_H_

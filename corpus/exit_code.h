@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exit codes of the programs.
 
-#ifndef STICTION_CORPUS_EXIT_CODE_H_
-#define STICTION_CORPUS_EXIT_CODE_H_
+#pragma once
 
 namespace stiction {
 
@@ -15,5 +14,3 @@ inline constexpr int kExitInternal = 70;  // always a bug
 inline constexpr int kExitDisk = 74;      // the disk is full, or what is to be written cannot be
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_EXIT_CODE_H_

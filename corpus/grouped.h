@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Large numbers, and how many of what, for people.
 
-#ifndef STICTION_CORPUS_GROUPED_H_
-#define STICTION_CORPUS_GROUPED_H_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -37,5 +36,3 @@ inline std::string Counted(std::int64_t count, std::string_view noun) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_GROUPED_H_

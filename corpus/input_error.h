@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // InputError: what came from outside is wrong, and only its author can mend it.
 
-#ifndef STICTION_CORPUS_INPUT_ERROR_H_
-#define STICTION_CORPUS_INPUT_ERROR_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -19,5 +18,3 @@ class InputError : public std::runtime_error {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_INPUT_ERROR_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are read whole: regular ones, and standard input as "-".
 
-#ifndef STICTION_CORPUS_INPUT_FILE_H_
-#define STICTION_CORPUS_INPUT_FILE_H_
+#pragma once
 
 #include <cstddef>
 #include <filesystem>
@@ -20,5 +19,3 @@ inline constexpr std::size_t kMostInputBytes = std::size_t{1} << 30;
 std::string ReadInput(const std::filesystem::path& file, std::size_t most);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_INPUT_FILE_H_

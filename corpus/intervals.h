@@ -4,8 +4,7 @@
 // Each end leaves at most 2.5 % beyond it: the low end is the least mean (chance) under which so many events or
 // more have that probability, the high end the largest under which so few or fewer have it.
 
-#ifndef STICTION_CORPUS_INTERVALS_H_
-#define STICTION_CORPUS_INTERVALS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -43,5 +42,3 @@ std::string RateText(std::int64_t count, std::int64_t total);
 std::string ShareText(std::int64_t count, std::int64_t total);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_INTERVALS_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // JSON values: for sources that make or read them. Headers take json_text.h, which names the type alone.
 
-#ifndef STICTION_CORPUS_JSON_H_
-#define STICTION_CORPUS_JSON_H_
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -33,5 +32,3 @@ Json RowsJson(const Matrix& A) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_JSON_H_

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "corpus/grouped.h"
 #include "corpus/input_file.h"
 #include "corpus/json.h"
-#include "corpus/rational.h"
 #include "solver/problem/check.h"
 
 template class nlohmann::basic_json<nlohmann::ordered_map>;

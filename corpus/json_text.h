@@ -4,8 +4,7 @@
 // What nlohmann lets pass is refused here: duplicate keys, integers that would silently be rounded to a
 // double, a NUL byte (which would end the text), and nesting deep enough to overflow the stack.
 
-#ifndef STICTION_CORPUS_JSON_TEXT_H_
-#define STICTION_CORPUS_JSON_TEXT_H_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -162,5 +161,3 @@ class Faults {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_JSON_TEXT_H_

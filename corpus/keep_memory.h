@@ -5,8 +5,7 @@
 // next allocation then costs more than a small problem's solution. It concerns the whole process, so no
 // function of the library calls it.
 
-#ifndef STICTION_CORPUS_KEEP_MEMORY_H_
-#define STICTION_CORPUS_KEEP_MEMORY_H_
+#pragma once
 
 #include <cstdlib>
 #ifdef __GLIBC__
@@ -24,5 +23,3 @@ inline void KeepFreedMemory() {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_KEEP_MEMORY_H_

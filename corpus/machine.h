@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The machine that works: what of it bears on time, and nothing that tells whose it is.
 
-#ifndef STICTION_CORPUS_MACHINE_H_
-#define STICTION_CORPUS_MACHINE_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -17,5 +16,3 @@ std::string MachineText();
 std::string ProcessorModel(std::string_view cpuinfo);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_MACHINE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables whose rows have a name.
 
-#ifndef STICTION_CORPUS_NAMED_ROWS_H_
-#define STICTION_CORPUS_NAMED_ROWS_H_
+#pragma once
 
 #include <algorithm>
 #include <string>
@@ -26,5 +25,3 @@ std::vector<std::string> NamesOf(const Rows& rows) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_NAMED_ROWS_H_

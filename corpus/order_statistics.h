@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Order statistics without interpolation.
 
-#ifndef STICTION_CORPUS_ORDER_STATISTICS_H_
-#define STICTION_CORPUS_ORDER_STATISTICS_H_
+#pragma once
 
 #include <algorithm>
 #include <vector>
@@ -22,5 +21,3 @@ inline Quartiles QuartilesOf(std::vector<double> values) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_ORDER_STATISTICS_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OutputError: what is to be written cannot be. The disk is full, or the place does not let us write.
 
-#ifndef STICTION_CORPUS_OUTPUT_ERROR_H_
-#define STICTION_CORPUS_OUTPUT_ERROR_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -21,5 +20,3 @@ class OutputError : public std::runtime_error {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_OUTPUT_ERROR_H_

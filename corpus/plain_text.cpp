@@ -46,11 +46,34 @@ std::size_t EndOfWord(std::string_view text, std::size_t at) {
   return close == text.npos ? end : std::min(text.find(' ', close), text.size());
 }
 
-}  // namespace
-
-namespace {
-
 thread_local std::size_t fixed_width = 0;  // 0: the terminal's
+
+// Where a line that is folded goes on.
+std::size_t HangingIndent(std::string_view line, std::size_t width) {
+  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+  for (std::size_t at = std::min(2 * width / 3, line.size() - 1); at > begin + 2; --at) {
+    if (line[at] != ' ' && line[at - 1] == ' ' && line[at - 2] == ' ') return at;
+  }
+  return begin + 2;
+}
+
+std::string FoldedLine(std::string_view line, std::size_t width) {
+  const std::size_t indent = HangingIndent(line, width);
+  std::string lines, part;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
+    const std::size_t end = EndOfWord(line, word);
+    const std::string_view more = line.substr(at, end - at);  // with the blanks before it
+    if (Columns(part) + Columns(more) > width && part.find_first_not_of(' ') != part.npos) {
+      lines += part + "\n";
+      part = std::string(indent, ' ') + std::string(line.substr(word, end - word));
+    } else {
+      part += more;
+    }
+    at = end;
+  }
+  return lines + part;
+}
 
 }  // namespace
 
@@ -85,37 +108,6 @@ std::string Paragraph(std::string_view text, std::size_t indent) {
   end_line();
   return lines;
 }
-
-namespace {
-
-// Where a line that is folded goes on.
-std::size_t HangingIndent(std::string_view line, std::size_t width) {
-  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
-  for (std::size_t at = std::min(2 * width / 3, line.size() - 1); at > begin + 2; --at) {
-    if (line[at] != ' ' && line[at - 1] == ' ' && line[at - 2] == ' ') return at;
-  }
-  return begin + 2;
-}
-
-std::string FoldedLine(std::string_view line, std::size_t width) {
-  const std::size_t indent = HangingIndent(line, width);
-  std::string lines, part;
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t word = std::min(line.find_first_not_of(' ', at), line.size());
-    const std::size_t end = EndOfWord(line, word);
-    const std::string_view more = line.substr(at, end - at);  // with the blanks before it
-    if (Columns(part) + Columns(more) > width && part.find_first_not_of(' ') != part.npos) {
-      lines += part + "\n";
-      part = std::string(indent, ' ') + std::string(line.substr(word, end - word));
-    } else {
-      part += more;
-    }
-    at = end;
-  }
-  return lines + part;
-}
-
-}  // namespace
 
 std::string Folded(std::string_view lines, std::size_t width) {
   std::string folded;

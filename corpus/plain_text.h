@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text for people: paragraphs and tables that fit the terminal.
 
-#ifndef STICTION_CORPUS_PLAIN_TEXT_H_
-#define STICTION_CORPUS_PLAIN_TEXT_H_
+#pragma once
 
 #include <unistd.h>
 
@@ -64,5 +63,3 @@ class TextTable {
 std::string ShellWord(const std::string& word);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_PLAIN_TEXT_H_

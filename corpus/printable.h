@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a foreign file holds, as messages and JSON can have it.
 
-#ifndef STICTION_CORPUS_PRINTABLE_H_
-#define STICTION_CORPUS_PRINTABLE_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -19,5 +18,3 @@ inline std::string Printable(std::string_view text) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_PRINTABLE_H_

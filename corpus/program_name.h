@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How commands in texts call the program: as whoever reads them called it.
 
-#ifndef STICTION_CORPUS_PROGRAM_NAME_H_
-#define STICTION_CORPUS_PROGRAM_NAME_H_
+#pragma once
 
 #include <cstdlib>
 #include <string>
@@ -17,5 +16,3 @@ inline std::string ProgramName() {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_PROGRAM_NAME_H_

@@ -2,8 +2,7 @@
 // How far something is that takes long, on standard error: a bar on a terminal, cut to its width; in a log a
 // line after ten seconds, then ever more seldom.
 
-#ifndef STICTION_CORPUS_PROGRESS_BAR_H_
-#define STICTION_CORPUS_PROGRESS_BAR_H_
+#pragma once
 
 #include <cstdint>
 #include <cstdio>
@@ -39,5 +38,3 @@ class ProgressBar {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_PROGRESS_BAR_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rational: the exact number of stiction, and numbers as text.
 
-#ifndef STICTION_CORPUS_RATIONAL_H_
-#define STICTION_CORPUS_RATIONAL_H_
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -45,5 +44,3 @@ struct BitLength<Rational> {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RATIONAL_H_

@@ -2,8 +2,7 @@
 // Rationals of Boost.Multiprecision, which are headers alone: for the solver in a browser (cli/live), where
 // there is no GMP. Include rational.h.
 
-#ifndef STICTION_CORPUS_RATIONAL_BOOST_H_
-#define STICTION_CORPUS_RATIONAL_BOOST_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -74,5 +73,3 @@ struct Fractions<Rational> {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RATIONAL_BOOST_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rationals of GMP: those of the program. Include rational.h.
 
-#ifndef STICTION_CORPUS_RATIONAL_GMP_H_
-#define STICTION_CORPUS_RATIONAL_GMP_H_
+#pragma once
 
 #include <gmpxx.h>
 
@@ -69,5 +68,3 @@ struct Fractions<Rational> {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RATIONAL_GMP_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems and pivots in other numbers.
 
-#ifndef STICTION_CORPUS_ROUNDED_H_
-#define STICTION_CORPUS_ROUNDED_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -63,5 +62,3 @@ ExactProblem Unrounded(const ContactProblem<Scalar>& problem) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_ROUNDED_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // StopReading: the exact arithmetic that reading a file may take ends when somebody says so.
 
-#ifndef STICTION_CORPUS_STOP_READING_H_
-#define STICTION_CORPUS_STOP_READING_H_
+#pragma once
 
 #include <atomic>
 #include <stdexcept>
@@ -39,5 +38,3 @@ class StopReading {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STOP_READING_H_

@@ -3,8 +3,7 @@
 // processes do the work, Stopwatch(CLOCK_MONOTONIC) is wall-clock time alone. Never negative: a clock that is
 // set, as that of a virtual machine may be, can step back.
 
-#ifndef STICTION_CORPUS_STOPWATCH_H_
-#define STICTION_CORPUS_STOPWATCH_H_
+#pragma once
 
 #include <time.h>
 
@@ -37,5 +36,3 @@ class Stopwatch {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STOPWATCH_H_

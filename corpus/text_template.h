@@ -9,8 +9,7 @@
 //
 // Any other @ is itself.
 
-#ifndef STICTION_CORPUS_TEXT_TEMPLATE_H_
-#define STICTION_CORPUS_TEXT_TEMPLATE_H_
+#pragma once
 
 #include <map>
 #include <set>
@@ -29,5 +28,3 @@ struct Blanks {
 std::string Filled(std::span<const unsigned char> bytes, const Blanks& blanks);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_TEXT_TEMPLATE_H_

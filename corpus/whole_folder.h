@@ -7,8 +7,7 @@
 // if its owner agrees, kept under another name. What a killed process leaves is `.NAME.stiction` beside the
 // target; the next one removes it. Anything else of that name, a link above all, is left alone and refused.
 
-#ifndef STICTION_CORPUS_WHOLE_FOLDER_H_
-#define STICTION_CORPUS_WHOLE_FOLDER_H_
+#pragma once
 
 #include <filesystem>
 #include <string>
@@ -52,5 +51,3 @@ class WholeFolder {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_WHOLE_FOLDER_H_

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/many.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -9,16 +7,15 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <thread>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "certify/request/request.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
+#include "python/module.h"
 #include "python/signals.h"
 
 namespace stiction {

@@ -4,6 +4,8 @@
 // Answers are those of the program's --json, as dictionaries and lists; stiction/__init__.py gives them types.
 // Whatever computes does so without the interpreter's lock.
 
+#include "python/module.h"
+
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -20,7 +22,6 @@
 #include <variant>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/claims.h"
 #include "certify/exact/answer_json.h"
 #include "certify/exact/neighbour.h"
 #include "certify/exact/newton_bodies.h"
@@ -40,10 +41,7 @@
 #include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "corpus/stopwatch.h"
-#include "python/many.h"
-#include "python/search.h"
 #include "python/signals.h"
-#include "python/simulate.h"
 #include "reports/pictures/problem_picture.h"
 #include "reports/viewer.h"
 #include "search/campaign.h"

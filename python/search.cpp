@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/search.h"
+#include "search/search.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -10,10 +10,10 @@
 #include "corpus/machine.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/store/finding_words.h"
+#include "python/module.h"
 #include "python/signals.h"
 #include "reports/tables/campaign_tables.h"
 #include "search/adversary/optimized_unit.h"
-#include "search/search.h"
 #include "search/summary.h"
 #include "search/testimony.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signals of the interpreter while the library computes, and what computes so that they, or the time, end it.
 
-#ifndef STICTION_PYTHON_SIGNALS_H_
-#define STICTION_PYTHON_SIGNALS_H_
+#pragma once
 
 #include <pybind11/pybind11.h>
 
@@ -59,5 +58,3 @@ auto Interruptible(double seconds, Run run) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_PYTHON_SIGNALS_H_

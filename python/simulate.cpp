@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "python/simulate.h"
-
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -13,6 +11,7 @@
 
 #include "corpus/record/scene_file.h"
 #include "corpus/record/scene_problems.h"
+#include "python/module.h"
 #include "python/signals.h"
 #include "reports/animation.h"
 #include "reports/pictures/rounded_scene.h"

@@ -12,8 +12,8 @@
 
 #include "corpus/json.h"
 #include "reports/animation_template.h"
+#include "reports/html/html.h"
 #include "reports/html/packed.h"
-#include "reports/html/template.h"
 #include "reports/pictures/draw_bodies.h"
 #include "scene/tables.h"
 

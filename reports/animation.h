@@ -2,8 +2,7 @@
 // The page of a run of a scene: one file that needs nothing else, which plays it, and shows the forces of each
 // frame with their numbers. Joined by the build (web/), like viewer.h.
 
-#ifndef STICTION_REPORTS_ANIMATION_H_
-#define STICTION_REPORTS_ANIMATION_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -21,5 +20,3 @@ std::string AnimationPage(const SceneIn<Kind, double>& scene, const View& view,
                           const std::vector<BodyMotion>& motions = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_ANIMATION_H_

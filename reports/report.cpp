@@ -5,16 +5,12 @@
 
 #include <algorithm>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "corpus/input_error.h"
-#include "corpus/input_file.h"
 #include "corpus/json_text.h"
 #include "reports/page/page.h"
 #include "reports/papers/latex.h"
 #include "reports/pictures/finding_picture.h"
-#include "reports/report_files.h"
 #include "reports/tables/campaign_tables.h"
 #include "reports/tables/discovery.h"
 #include "reports/tables/since.h"

@@ -2,8 +2,7 @@
 // The report: what a store holds, as a page for people, tables for programs, and files to replay and check.
 // files.md says what each file is.
 
-#ifndef STICTION_REPORTS_REPORT_H_
-#define STICTION_REPORTS_REPORT_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -51,5 +50,3 @@ std::filesystem::path WriteMeasured(const std::filesystem::path& directory, Occu
                                     const ReportExtras& extras);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_REPORT_H_

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that a report and a data package have in common: those of the findings, and the tables.
 
-#ifndef STICTION_REPORTS_REPORT_FILES_H_
-#define STICTION_REPORTS_REPORT_FILES_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "corpus/whole_folder.h"
 #include "reports/tables/discovery.h"
@@ -45,5 +43,3 @@ class ReportFiles {
 std::map<std::string, std::string> FilesOf(const Discovery& discovery);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_REPORT_FILES_H_

@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "reports/html/template.h"
+#include "reports/html/html.h"
 #include "reports/viewer_template.h"
 
 namespace stiction {

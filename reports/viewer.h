@@ -3,8 +3,7 @@
 //
 // The build joins the page (web/) and embeds it into the program; here it gets its title and its data.
 
-#ifndef STICTION_REPORTS_VIEWER_H_
-#define STICTION_REPORTS_VIEWER_H_
+#pragma once
 
 #include <string>
 
@@ -31,5 +30,3 @@ struct Playable {
 std::string ViewerPage(const std::string& title, const Json& data, const ViewerOrigin& origin);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_VIEWER_H_

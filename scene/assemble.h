@@ -32,8 +32,7 @@
 //   of a face are dropped (FindRedundant); islands are problems of their own. Joints are bilateral rows, which
 //   solver/problem/reduction.h eliminates before a method runs.
 
-#ifndef STICTION_SCENE_ASSEMBLE_H_
-#define STICTION_SCENE_ASSEMBLE_H_
+#pragma once
 
 #include <string>
 #include <type_traits>
@@ -100,5 +99,3 @@ std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
                                  const ModelIn<Kind, Scalar>& model, Level level);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_ASSEMBLE_H_

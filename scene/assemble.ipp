@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for rows.h and assemble.h, in their order.
 
-#ifndef STICTION_SCENE_ASSEMBLE_IPP_
-#define STICTION_SCENE_ASSEMBLE_IPP_
+#pragma once
 
 #include <array>
 #include <map>
@@ -298,5 +297,3 @@ typename ContactProblem<Scalar>::Vector ExtendForces(
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_ASSEMBLE_IPP_

@@ -26,8 +26,7 @@
 // edge. In space a corner that faces a corner or an edge lengthwise, with no face opposite, is no contact.
 // Fixed bodies against each other, bodies of different levels and bodies that a joint connects are passed over.
 
-#ifndef STICTION_SCENE_CONTACTS_H_
-#define STICTION_SCENE_CONTACTS_H_
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -80,5 +79,3 @@ extern template std::vector<TouchPointInSpace<mpq_class>> FindContacts(const Sce
                                                                        const mpq_class&);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_CONTACTS_H_

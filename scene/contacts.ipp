@@ -5,8 +5,7 @@
 //   AgainstRound(contact, P, Q)   a round piece P of the contact's a against one with corners, Q of b
 //   Cornered(P, Q)                two pieces with corners
 
-#ifndef STICTION_SCENE_CONTACTS_IPP_
-#define STICTION_SCENE_CONTACTS_IPP_
+#pragma once
 
 #include <algorithm>
 #include <utility>
@@ -167,5 +166,3 @@ std::vector<TouchPointIn<Kind, Scalar>> FindContacts(const SceneIn<Kind, Scalar>
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_CONTACTS_IPP_

@@ -18,8 +18,7 @@
 // A body that trembles about its place has the speed of its width, and creeps by this measure. Bodies that are
 // fixed have no word.
 
-#ifndef STICTION_SCENE_CREEP_H_
-#define STICTION_SCENE_CREEP_H_
+#pragma once
 
 #include <cstdint>
 #include <string_view>
@@ -79,5 +78,3 @@ class MotionTrack {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_CREEP_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The explanation of a model, in the plane and in space.
 
-#ifndef STICTION_SCENE_EXPLAIN_IPP_
-#define STICTION_SCENE_EXPLAIN_IPP_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -110,5 +109,3 @@ std::vector<std::string> Explain(const SceneIn<Kind, Scalar>& scene,
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_EXPLAIN_IPP_

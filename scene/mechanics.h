@@ -11,8 +11,7 @@
 // of its own: the A of all is the block diagonal of theirs. An island keeps J; A is formed when a method asks
 // for it, and only from rows that share a body which can move.
 
-#ifndef STICTION_SCENE_MECHANICS_H_
-#define STICTION_SCENE_MECHANICS_H_
+#pragma once
 
 #include <array>
 #include <vector>
@@ -122,5 +121,3 @@ template <class Scalar, int Dof>
 std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& constraints);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_MECHANICS_H_

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for mechanics.h, in its order.
 
-#ifndef STICTION_SCENE_MECHANICS_IPP_
-#define STICTION_SCENE_MECHANICS_IPP_
+#pragma once
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -423,5 +421,3 @@ std::vector<int> FindRedundant(const std::vector<Constraint<Scalar, Dof>>& const
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_MECHANICS_IPP_

@@ -6,8 +6,7 @@
 // is the one that the angular momentum asks for, w = inverse of (the turned I) times (I w + h (moments)):
 // nothing but moments changes an angular momentum, up to rounding. Energy is kept to first order in h.
 
-#ifndef STICTION_SCENE_MOTION_H_
-#define STICTION_SCENE_MOTION_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -98,5 +97,3 @@ inline double SpinEnergy(const BodyInSpace<double>& body) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_MOTION_H_

@@ -2,8 +2,7 @@
 // What two bodies of a scene are to each other: whether they may touch, and their friction; all pairs of pieces
 // that may and are near. Plane and space.
 
-#ifndef STICTION_SCENE_PAIR_FACTS_H_
-#define STICTION_SCENE_PAIR_FACTS_H_
+#pragma once
 
 #include <gmpxx.h>
 
@@ -183,5 +182,3 @@ void ForEachPair(const PairTable<SceneType>& table, const std::vector<std::vecto
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_PAIR_FACTS_H_

@@ -2,8 +2,7 @@
 // A loop over several threads: TBB's. How its library hands work from thread to thread the thread sanitizer
 // does not see, as it instruments our code only; there the loop is one over threads of our own.
 
-#ifndef STICTION_SCENE_PARALLEL_H_
-#define STICTION_SCENE_PARALLEL_H_
+#pragma once
 
 #include <cstddef>
 
@@ -42,5 +41,3 @@ void ForEachInParallel(std::size_t count, const Body& body) {
 }  // namespace stiction
 
 #undef STICTION_OWN_THREADS
-
-#endif  // STICTION_SCENE_PARALLEL_H_

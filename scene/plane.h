@@ -2,8 +2,7 @@
 // The plane over any scalar: vectors, rotations as (cos, sin), unit vectors rounded once. And the plane as a
 // kind of scene: what templates over the kind ask of it; those of space are in space.h.
 
-#ifndef STICTION_SCENE_PLANE_H_
-#define STICTION_SCENE_PLANE_H_
+#pragma once
 
 #include <gmpxx.h>
 
@@ -160,5 +159,3 @@ std::array<Vector2<Scalar>, 1> TangentsOf(const Vector2<Scalar>& normal) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_PLANE_H_

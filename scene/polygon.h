@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pieces of bodies in the plane: polygons, their corners anticlockwise and strictly convex, and discs.
 
-#ifndef STICTION_SCENE_POLYGON_H_
-#define STICTION_SCENE_POLYGON_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -18,5 +17,3 @@ std::string PolygonFault(const std::vector<Vector2<mpq_class>>& polygon);
 MassPropertiesIn<Plane> MassPropertiesOf(const std::vector<BodyShape<mpq_class>>& shapes);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_POLYGON_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pieces of bodies in space: convex polyhedra and balls.
 
-#ifndef STICTION_SCENE_POLYHEDRON_H_
-#define STICTION_SCENE_POLYHEDRON_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ Polyhedron MakePolyhedron(std::vector<Vector3<mpq_class>> corners);
 MassPropertiesIn<Space> MassPropertiesOf(const std::vector<ShapeInSpace<mpq_class>>& shapes);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_POLYHEDRON_H_

@@ -14,8 +14,7 @@
 // section 3 takes such terms into b without writing them out. rows_in_plane.cpp and rows_in_space.cpp derive
 // them, and those of joints.
 
-#ifndef STICTION_SCENE_ROWS_H_
-#define STICTION_SCENE_ROWS_H_
+#pragma once
 
 #include <vector>
 
@@ -76,5 +75,3 @@ std::vector<RowIn<Space, Scalar>> JointRows(const SceneInSpace<Scalar>& scene,
                                             const JointInSpace<Scalar>& joint);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_ROWS_H_

@@ -10,8 +10,6 @@
 //
 //       bias = t.(-w_a^2 r_a + w_b^2 r_b)
 
-#include <utility>
-
 #include "scene/rows.h"
 
 namespace stiction {
@@ -36,18 +34,6 @@ Scalar RoundBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b, const V
   const Scalar distance = Dot<Scalar>(n, c - d);
   return Scalar(Dot<Scalar>(n, relative) + (distance > 0 ? Scalar(across * across / distance) : Scalar(0)));
 }
-
-}  // namespace
-
-template <class Scalar>
-Scalar NormalBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b, const TouchPoint<Scalar>& contact) {
-  const Vector2<Scalar>&n = contact.normal, &p = contact.point;
-  const Vector2<Scalar> c = p + (contact.gap + contact.radius_a) * n;
-  if (contact.meeting == Meeting::kFace) return EdgeBias<Scalar>(a, b, c, p, n);
-  return RoundBias<Scalar>(a, b, c, p - contact.radius_b * n, n);
-}
-
-namespace {
 
 template <class Scalar>
 std::vector<RowIn<Plane, Scalar>> PinRows(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b,
@@ -85,6 +71,14 @@ RowIn<Plane, Scalar> LockRow(const RigidBody<Scalar>& a, const Vector2<Scalar>& 
 }
 
 }  // namespace
+
+template <class Scalar>
+Scalar NormalBias(const RigidBody<Scalar>& a, const RigidBody<Scalar>& b, const TouchPoint<Scalar>& contact) {
+  const Vector2<Scalar>&n = contact.normal, &p = contact.point;
+  const Vector2<Scalar> c = p + (contact.gap + contact.radius_a) * n;
+  if (contact.meeting == Meeting::kFace) return EdgeBias<Scalar>(a, b, c, p, n);
+  return RoundBias<Scalar>(a, b, c, p - contact.radius_b * n, n);
+}
 
 template <class Scalar>
 std::vector<RowIn<Plane, Scalar>> JointRows(const Scene<Scalar>& scene, const Joint<Scalar>& joint) {

@@ -78,46 +78,6 @@ Scalar EdgesBias(const TouchPointInSpace<Scalar>& contact, const Vector3<Scalar>
   return Scalar((g * n.dot(m2) + 2 * m1.dot(y.first) + L * n.dot(y.second) - 2 * g1 * L1 - g * L2) / L);
 }
 
-}  // namespace
-
-template <class Scalar>
-Scalar NormalBias(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
-                  const TouchPointInSpace<Scalar>& contact) {
-  const Vector3<Scalar>& n = contact.normal;
-  const Vector3<Scalar> c = contact.point + (contact.gap + contact.radius_a) * n;
-  const Vector3<Scalar> d = contact.point - contact.radius_b * n;
-  const SeenFromB<Scalar> y(b.spin, c - d, a.VelocityAt(c) - b.VelocityAt(d), ToCentre(a, c) - ToCentre(b, d));
-  const Scalar flat = n.dot(y.second), distance = n.dot(c - d);
-  if (contact.meeting == Meeting::kEdges) return EdgesBias<Scalar>(contact, a.spin, b.spin, y);
-  if (contact.meeting == Meeting::kFace || distance <= 0) return flat;
-  Vector3<Scalar> across = y.first - n.dot(y.first) * n;
-  if (contact.meeting == Meeting::kEdge) {
-    const Vector3<Scalar>& e = contact.edge_b;
-    across -= Scalar(e.dot(across) / e.squaredNorm()) * e;
-  }
-  return Scalar(flat + across.squaredNorm() / distance);
-}
-
-template <class Scalar>
-Vector3<Scalar> Wandering(const TouchPointInSpace<Scalar>& contact, const Vector3<Scalar>& relative_spin) {
-  const Scalar &r_a = contact.radius_a, &r_b = contact.radius_b;
-  const Vector3<Scalar> rolling = CrossProduct<Scalar>(relative_spin, contact.normal);
-  switch (contact.meeting) {
-    case Meeting::kFace:
-      return r_a * rolling;
-    case Meeting::kPoint:
-      if (Sign<Scalar>(r_a * r_b) == 0) break;
-      return Scalar(r_a * r_b / (r_a + r_b)) * rolling;
-    case Meeting::kEdge:
-      return Scalar(r_a * contact.edge_b.dot(rolling) / contact.edge_b.squaredNorm()) * contact.edge_b;
-    case Meeting::kEdges:
-      break;
-  }
-  return Zero<Vector3<Scalar>>();
-}
-
-namespace {
-
 // Across the point p of a and q of b, along u.
 template <class Scalar>
 RowIn<Space, Scalar> PointRow(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
@@ -155,6 +115,42 @@ Matrix3<Scalar> AxesOf(const JointInSpace<Scalar>& joint) {
 }
 
 }  // namespace
+
+template <class Scalar>
+Scalar NormalBias(const BodyInSpace<Scalar>& a, const BodyInSpace<Scalar>& b,
+                  const TouchPointInSpace<Scalar>& contact) {
+  const Vector3<Scalar>& n = contact.normal;
+  const Vector3<Scalar> c = contact.point + (contact.gap + contact.radius_a) * n;
+  const Vector3<Scalar> d = contact.point - contact.radius_b * n;
+  const SeenFromB<Scalar> y(b.spin, c - d, a.VelocityAt(c) - b.VelocityAt(d), ToCentre(a, c) - ToCentre(b, d));
+  const Scalar flat = n.dot(y.second), distance = n.dot(c - d);
+  if (contact.meeting == Meeting::kEdges) return EdgesBias<Scalar>(contact, a.spin, b.spin, y);
+  if (contact.meeting == Meeting::kFace || distance <= 0) return flat;
+  Vector3<Scalar> across = y.first - n.dot(y.first) * n;
+  if (contact.meeting == Meeting::kEdge) {
+    const Vector3<Scalar>& e = contact.edge_b;
+    across -= Scalar(e.dot(across) / e.squaredNorm()) * e;
+  }
+  return Scalar(flat + across.squaredNorm() / distance);
+}
+
+template <class Scalar>
+Vector3<Scalar> Wandering(const TouchPointInSpace<Scalar>& contact, const Vector3<Scalar>& relative_spin) {
+  const Scalar &r_a = contact.radius_a, &r_b = contact.radius_b;
+  const Vector3<Scalar> rolling = CrossProduct<Scalar>(relative_spin, contact.normal);
+  switch (contact.meeting) {
+    case Meeting::kFace:
+      return r_a * rolling;
+    case Meeting::kPoint:
+      if (Sign<Scalar>(r_a * r_b) == 0) break;
+      return Scalar(r_a * r_b / (r_a + r_b)) * rolling;
+    case Meeting::kEdge:
+      return Scalar(r_a * contact.edge_b.dot(rolling) / contact.edge_b.squaredNorm()) * contact.edge_b;
+    case Meeting::kEdges:
+      break;
+  }
+  return Zero<Vector3<Scalar>>();
+}
 
 template <class Scalar>
 std::vector<RowIn<Space, Scalar>> JointRows(const SceneInSpace<Scalar>& scene,

@@ -4,14 +4,33 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <utility>
-
-#include "scene/rounding.h"
+#include <cmath>
+#include <optional>
 
 namespace stiction {
 namespace {
 
 using Exact = mpq_class;
+
+// The double nearest to x, up to one unit of its last place; infinite beyond them.
+double Nearest(const Exact& x) {
+  const double below = x.get_d();  // toward zero
+  const double above = std::nextafter(below, sgn(x) < 0 ? -HUGE_VAL : HUGE_VAL);
+  if (!std::isfinite(below) || !std::isfinite(above)) return below;
+  const Exact from_below = abs(x - Exact(below)), from_above = abs(Exact(above) - x);
+  return from_above < from_below ? above : below;
+}
+
+template <int Rows, int Columns>
+Eigen::Matrix<double, Rows, Columns> Nearest(const Eigen::Matrix<Exact, Rows, Columns>& numbers) {
+  return numbers.unaryExpr([](const Exact& x) { return Nearest(x); });
+}
+
+// The root of x >= 0 if it is rational.
+std::optional<Exact> RationalRoot(const Exact& x) {
+  if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0 || mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return {};
+  return Exact(sqrt(x.get_num()), sqrt(x.get_den()));
+}
 
 template <int Size>
 Exact LargestEntry(const Eigen::Matrix<Exact, Size, 1>& v) {

@@ -10,8 +10,7 @@
 // A fixed body is moved by nothing; it may have a velocity, an acceleration and a spin of its own (a driven
 // crank, a conveyor, a floor that is pushed up). Spin and acceleration stay as they are.
 
-#ifndef STICTION_SCENE_SCENE_H_
-#define STICTION_SCENE_SCENE_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -179,5 +178,3 @@ struct MassPropertiesIn {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_SCENE_H_

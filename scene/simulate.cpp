@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
 #include "scene/motion.h"
 #include "scene/parallel.h"
+#include "scene/rows.h"
 #include "solver/in_turn.h"
 
 namespace stiction {

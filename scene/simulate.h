@@ -48,8 +48,7 @@
 // the step, one of positions where there are joints, one of impulses in a collision. For an island of 100 rows
 // and more in the plane, 10 in space, no A is formed.
 
-#ifndef STICTION_SCENE_SIMULATE_H_
-#define STICTION_SCENE_SIMULATE_H_
+#pragma once
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -257,5 +256,3 @@ template <class Kind>
 Drift DriftOf(const SceneIn<Kind, double>& scene);
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_SIMULATE_H_

@@ -26,8 +26,7 @@
 // A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the
 // whole one.
 
-#ifndef STICTION_SCENE_SOLVE_SCENE_H_
-#define STICTION_SCENE_SOLVE_SCENE_H_
+#pragma once
 
 #include <memory>
 
@@ -65,5 +64,3 @@ class SceneSolver {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_SOLVE_SCENE_H_

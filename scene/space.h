@@ -2,14 +2,12 @@
 // Space over any scalar: vectors, rotations as quaternions, unit vectors rounded once. And space as a kind of
 // scene, like the plane in plane.h.
 
-#ifndef STICTION_SCENE_SPACE_H_
-#define STICTION_SCENE_SPACE_H_
+#pragma once
 
 #include <gmpxx.h>
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -182,5 +180,3 @@ std::array<Vector3<Scalar>, 2> TangentsOf(const Vector3<Scalar>& normal) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_SPACE_H_

@@ -7,8 +7,7 @@
 // those of that step, at its start. Of a step that was done in parts (simulate.h) they are those of its last
 // part.
 
-#ifndef STICTION_SCENE_TABLES_H_
-#define STICTION_SCENE_TABLES_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -124,5 +123,3 @@ void ForEachContactRow(const SimulationIn<Kind>& simulation, double time, Take t
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SCENE_TABLES_H_

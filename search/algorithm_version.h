@@ -6,8 +6,7 @@
 // holds traces that were recorded under it. Whoever changes them on purpose raises it, so that no
 // store mixes what was computed under both.
 
-#ifndef STICTION_SEARCH_ALGORITHM_VERSION_H_
-#define STICTION_SEARCH_ALGORITHM_VERSION_H_
+#pragma once
 
 namespace stiction {
 
@@ -22,5 +21,3 @@ inline constexpr int kCountsVersion = 6;
 inline constexpr int kJudgeVersion = kCountsVersion + 4;
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ALGORITHM_VERSION_H_

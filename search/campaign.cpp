@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "corpus/json.h"
 #include "corpus/named_rows.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Campaign: what a search tries, in units that are the same on every machine.
 
-#ifndef STICTION_SEARCH_CAMPAIGN_H_
-#define STICTION_SEARCH_CAMPAIGN_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -15,7 +14,6 @@
 #include "search/adversary/candidate.h"
 #include "search/generators/generators.h"
 #include "search/under_test/solver.h"
-#include "solver/problem/answer.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
@@ -155,5 +153,3 @@ Arithmetic ParseSearchArithmetic(const std::string& text);
 GeneratorId ReadGenerator(const JsonPlace& place);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_CAMPAIGN_H_

@@ -2,11 +2,9 @@
 // Families of problems, a generator at one number of contacts each: which of those of a campaign a store has
 // tried.
 
-#ifndef STICTION_SEARCH_FAMILIES_H_
-#define STICTION_SEARCH_FAMILIES_H_
+#pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -30,5 +28,3 @@ std::string FamiliesText(const Store& store, const std::string& file);
 SharedJson FamiliesToJson(const Store& store);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_FAMILIES_H_

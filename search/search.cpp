@@ -10,7 +10,6 @@
 #include <mutex>
 #include <set>
 #include <thread>
-#include <vector>
 
 #include "corpus/record/counts.h"
 #include "corpus/record/kinds.h"

@@ -5,8 +5,7 @@
 // share of their processor time (backlog.h). What the store holds in the end depends on which units were run
 // and on nothing else, but for which findings are finished already, and the work that it took.
 
-#ifndef STICTION_SEARCH_SEARCH_H_
-#define STICTION_SEARCH_SEARCH_H_
+#pragma once
 
 #include <atomic>
 #include <cstdint>
@@ -74,5 +73,3 @@ SearchReport RunSearch(const Campaign& campaign, const CampaignIdentity& identit
                        const std::function<void(const SearchProgress&)>& show);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_SEARCH_H_

@@ -2,8 +2,7 @@
 // A store as JSON, for the end of a search; that of a search with an objective also in a few lines, and its
 // best as problems. All others have theirs in reports/text/text_report.h.
 
-#ifndef STICTION_SEARCH_SUMMARY_H_
-#define STICTION_SEARCH_SUMMARY_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -39,5 +38,3 @@ std::optional<double> ValueOf(const Elite& elite, const Campaign& campaign);
 ProblemFile BestFile(const Elite& elite, const Campaign& campaign);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_SUMMARY_H_

@@ -5,8 +5,7 @@
 // that does not exist, a unit of another generator, a certificate of another problem, a statistic with an
 // unknown key. Nothing is solved or verified again: `stiction check` does that.
 
-#ifndef STICTION_SEARCH_TESTIMONY_H_
-#define STICTION_SEARCH_TESTIMONY_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -27,5 +26,3 @@ void RequireSound(const Record& total, const Campaign& campaign, const std::stri
 Store OpenSound(const std::string& file, const ShowFindings& show = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_TESTIMONY_H_

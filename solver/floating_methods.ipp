@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of the table of methods over floating-point scalars (solve.h).
 
-#ifndef STICTION_SOLVER_FLOATING_METHODS_IPP_
-#define STICTION_SOLVER_FLOATING_METHODS_IPP_
+#pragma once
 
 #include <array>
 
@@ -159,5 +158,3 @@ std::span<const Method<Scalar>> FloatingMethods() {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_FLOATING_METHODS_IPP_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs in turn: what a method, a claim or a scene tries one after the other until something is decided.
 
-#ifndef STICTION_SOLVER_IN_TURN_H_
-#define STICTION_SOLVER_IN_TURN_H_
+#pragma once
 
 #include <functional>
 #include <utility>
@@ -40,5 +39,3 @@ Answer InTurn(const Runs<Answer>& runs) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_IN_TURN_H_

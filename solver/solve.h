@@ -29,14 +29,12 @@
 //
 // Over exact scalars nothing is scaled, and the gate is the verification of certify.
 
-#ifndef STICTION_SOLVER_SOLVE_H_
-#define STICTION_SOLVER_SOLVE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "solver/problem/answer.h"
@@ -120,5 +118,3 @@ extern template Answer<double> Solve(const ContactProblem<double>&, const Reques
 extern template Answer<double> SolveBy(const Method<double>&, const ContactProblem<double>&, const Request&);
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_SOLVE_H_

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for solve.h, and the rows of the table. A new method is a row and its run.
 
-#ifndef STICTION_SOLVER_SOLVE_IPP_
-#define STICTION_SOLVER_SOLVE_IPP_
+#pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -342,5 +339,3 @@ Answer<Scalar> Solve(const ContactProblem<Scalar>& problem, const Request& reque
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_SOLVE_IPP_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems in factors, for tests, from a J.
 
-#ifndef STICTION_TESTS_FACTORED_H_
-#define STICTION_TESTS_FACTORED_H_
+#pragma once
 
 #include <vector>
 
@@ -27,5 +26,3 @@ inline FactoredProblem<double> InFactors(int dimension, const std::vector<Contac
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_FACTORED_H_

@@ -2,8 +2,7 @@
 // A judge of solutions: forces that are called a solution are held against rationals, without a root and
 // without a tolerance but the one that was promised.
 
-#ifndef STICTION_TESTS_JUDGE_H_
-#define STICTION_TESTS_JUDGE_H_
+#pragma once
 
 #include <algorithm>
 #include <optional>
@@ -57,5 +56,3 @@ inline std::string FaultOf(const ExactProblem& problem, const Request& request, 
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_JUDGE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Methods over rationals, by their rows of the table.
 
-#ifndef STICTION_TESTS_METHODS_H_
-#define STICTION_TESTS_METHODS_H_
+#pragma once
 
 #include "certify/exact/solve.h"
 
@@ -16,5 +15,3 @@ inline ExactAnswer RunLemke(const ExactProblem& problem, const Limits& limits) {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_METHODS_H_

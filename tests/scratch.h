@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A folder for the files of a test, which goes with it.
 
-#ifndef STICTION_TESTS_SCRATCH_H_
-#define STICTION_TESTS_SCRATCH_H_
+#pragma once
 
 #include <stdlib.h>
 
@@ -34,5 +33,3 @@ class Scratch {
 };
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_SCRATCH_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems for tests: with known behaviour, at random, and equivalent to each other.
 
-#ifndef STICTION_TESTS_SUPPORT_H_
-#define STICTION_TESTS_SUPPORT_H_
+#pragma once
 
 #include <cstdint>
 #include <cstdlib>
@@ -302,5 +301,3 @@ inline Policy RandomPolicy(Choices& choices) {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_SUPPORT_H_

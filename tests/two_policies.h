@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A store that tests of summaries and of texts are about: what its records add up to is known.
 
-#ifndef STICTION_TESTS_TWO_POLICIES_H_
-#define STICTION_TESTS_TWO_POLICIES_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -75,5 +74,3 @@ inline Record TwoPolicies() {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_TWO_POLICIES_H_

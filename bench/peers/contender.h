@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contenders of the peers' table: one solver each, of stiction or of a package that was found at build time.
 
-#ifndef STICTION_BENCH_PEERS_CONTENDER_H_
-#define STICTION_BENCH_PEERS_CONTENDER_H_
+#pragma once
 
 #include <memory>
 #include <string_view>
@@ -51,5 +50,3 @@ std::unique_ptr<Contender> MakeSiconos(SiconosMethod method);
 std::unique_ptr<Contender> MakeOurs();  // of this suite, as a library under test
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_CONTENDER_H_

@@ -7,8 +7,7 @@
 //          become. In space a contact has two such rows, each with its own bounds: a pyramid.
 // cfm      constraint force mixing: what is added to the diagonal, as a part of its largest entry.
 
-#ifndef STICTION_BENCH_PEERS_DANTZIG_H_
-#define STICTION_BENCH_PEERS_DANTZIG_H_
+#pragma once
 
 #include <algorithm>
 #include <limits>
@@ -89,5 +88,3 @@ class DantzigContender : public Contender {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_DANTZIG_H_

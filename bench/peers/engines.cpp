@@ -21,9 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/output.h"
 #include "bench/peers/tables.h"
-#include "bench/progress.h"
-#include "bench/table.h"
 #include "corpus/json.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/stopwatch.h"

@@ -4,8 +4,7 @@
 // Every engine is given the world below and its own defaults, but for these: bodies never sleep, restitution is
 // 0, and two surfaces have the coefficient mu.
 
-#ifndef STICTION_BENCH_PEERS_ENGINES_H_
-#define STICTION_BENCH_PEERS_ENGINES_H_
+#pragma once
 
 #include <Eigen/Geometry>
 #include <functional>
@@ -62,5 +61,3 @@ std::vector<EngineKind> Box2dEngines();   // engine_box2d.cpp
 std::vector<EngineKind> MujocoEngines();  // engine_mujoco.cpp
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_ENGINES_H_

@@ -21,8 +21,8 @@
 #include <set>
 
 #include "bench/dials.h"
+#include "bench/output.h"
 #include "bench/peers/rows.h"
-#include "bench/progress.h"
 #include "certify/exact/neighbour.h"
 #include "certify/exact/solve.h"
 #include "corpus/atomic_file.h"

@@ -2,8 +2,7 @@
 // Problems with structure: buildings (bench/structure.h), scenes of the corpus as a simulation meets them,
 // scenes of the search, and rows that nearly depend on each other.
 
-#ifndef STICTION_BENCH_PEERS_FAMILIES_H_
-#define STICTION_BENCH_PEERS_FAMILIES_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -29,5 +28,3 @@ struct StructuredFamily {
 std::vector<StructuredFamily> StructuredFamilies(const std::filesystem::path& scenes);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_FAMILIES_H_

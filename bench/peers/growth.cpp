@@ -10,9 +10,9 @@
 #include <limits>
 #include <optional>
 
+#include "bench/output.h"
 #include "bench/peers/one_thread.h"
 #include "bench/peers/tables.h"
-#include "bench/progress.h"
 #include "bench/structure.h"
 #include "certify/exact/answer_json.h"
 #include "corpus/json.h"

@@ -12,9 +12,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/output.h"
 #include "bench/peers/tables.h"
-#include "bench/progress.h"
-#include "bench/table.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/order_statistics.h"

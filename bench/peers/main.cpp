@@ -13,12 +13,12 @@
 #include <iostream>
 #include <optional>
 
+#include "bench/output.h"
 #include "bench/peers/engines.h"
 #include "bench/peers/families.h"
 #include "bench/peers/native_lu.h"
 #include "bench/peers/one_thread.h"
 #include "bench/peers/tables.h"
-#include "bench/progress.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
 #include "corpus/json.h"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/output.h"
 #include "bench/peers/rows.h"
-#include "bench/progress.h"
 #include "corpus/json.h"
 #include "solver/problem/lenient.h"
 

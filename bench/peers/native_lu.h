@@ -3,8 +3,7 @@
 // which has the instructions that every x86-64 processor has. No type of Eigen's here: native_lu.cpp has its
 // own.
 
-#ifndef STICTION_BENCH_PEERS_NATIVE_LU_H_
-#define STICTION_BENCH_PEERS_NATIVE_LU_H_
+#pragma once
 
 #include <memory>
 
@@ -25,5 +24,3 @@ class NativeLu {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_NATIVE_LU_H_

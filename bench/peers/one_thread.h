@@ -5,8 +5,7 @@
 // environment says otherwise when they are loaded: before main. So the program is started once more with these
 // variables.
 
-#ifndef STICTION_BENCH_PEERS_ONE_THREAD_H_
-#define STICTION_BENCH_PEERS_ONE_THREAD_H_
+#pragma once
 
 #include <array>
 #include <string>
@@ -49,5 +48,3 @@ Json ToJson(const Clocks& clocks);
 std::string ClocksText(const Clocks& clocks);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_ONE_THREAD_H_

@@ -2,8 +2,7 @@
 // Gaussian elimination as it is written down: three loops, no blocks, no exchange of rows. What the paper's
 // "two to three times as long as Gaussian elimination" is held against, beside Eigen's blocked LU.
 
-#ifndef STICTION_BENCH_PEERS_PLAIN_GAUSS_H_
-#define STICTION_BENCH_PEERS_PLAIN_GAUSS_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -41,5 +40,3 @@ class PlainGauss {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_PLAIN_GAUSS_H_

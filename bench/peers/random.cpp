@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "bench/output.h"
 #include "bench/peers/rows.h"
-#include "bench/progress.h"
 #include "corpus/json.h"
 #include "search/generators/choices.h"
 #include "solver/problem/check.h"

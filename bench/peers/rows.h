@@ -11,8 +11,7 @@
 // capped    a contender that needs more than a bound for the first problem, or dies on it: tried in a process
 //           of its own
 
-#ifndef STICTION_BENCH_PEERS_ROWS_H_
-#define STICTION_BENCH_PEERS_ROWS_H_
+#pragma once
 
 #include <functional>
 #include <map>
@@ -85,5 +84,3 @@ Json CellJson(const PeerRow& row, const PeerCell& cell);
 Json ToJson(const std::vector<Ahead>& ahead);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_ROWS_H_

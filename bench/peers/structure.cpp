@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "bench/output.h"
 #include "bench/peers/families.h"
 #include "bench/peers/rows.h"
-#include "bench/progress.h"
 #include "corpus/json.h"
 
 namespace stiction {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program stiction-peers: its options, its problems, and its tables.
 
-#ifndef STICTION_BENCH_PEERS_TABLES_H_
-#define STICTION_BENCH_PEERS_TABLES_H_
+#pragma once
 
 #include <limits>
 #include <string>
@@ -68,5 +67,3 @@ std::vector<std::string> EngineSceneNames();
 Json MeasureEngines(const PeersOptions& o);
 
 }  // namespace stiction
-
-#endif  // STICTION_BENCH_PEERS_TABLES_H_

@@ -18,8 +18,7 @@
 //
 // Anything else refutes a program or a proof here.
 
-#ifndef STICTION_CERTIFY_CLAIMS_AGREEMENT_H_
-#define STICTION_CERTIFY_CLAIMS_AGREEMENT_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -68,5 +67,3 @@ SolutionCount CountSolutions(const ExactProblem& problem, const Enumeration& mod
 bool HasTies(const ExactProblem& problem, const ExactRun& run);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_AGREEMENT_H_

@@ -6,8 +6,7 @@
 //   h          c in K*: b'v = w'J'v + c'v, and A v = 0 makes J'v = 0, so b'v = c'v >= 0 for v in K
 //   exists     psd and h
 
-#ifndef STICTION_CERTIFY_CLAIMS_BY_FACTORS_H_
-#define STICTION_CERTIFY_CLAIMS_BY_FACTORS_H_
+#pragma once
 
 #include "certify/claims/witness.h"
 #include "corpus/record/factors.h"
@@ -22,5 +21,3 @@ bool HasFactors(const Json& witness);
 ExactVector RequireFactorsOfProblem(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_BY_FACTORS_H_

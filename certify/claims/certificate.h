@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Certificates: `stiction-certificate`, version 1; certify/certificates.md describes them.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_
-#define STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -70,5 +69,3 @@ CheckReport CheckCertificate(const Json& certificate, const std::string& source,
 std::vector<Policy> CertifiedPolicies(const Json& certificate);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CERTIFICATE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The independent checkers of this folder, as texts: so that a data package can carry them along.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CHECKER_FILES_H_
-#define STICTION_CERTIFY_CLAIMS_CHECKER_FILES_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -13,5 +12,3 @@ namespace stiction {
 std::map<std::string, std::string> CheckerFiles();
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CHECKER_FILES_H_

@@ -4,8 +4,7 @@
 // A file <name>.cpp of this folder with a function `ClaimRows <Name>Claims()` has the claims of one idea, a row
 // for each. The build finds it; nothing else names it.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CLAIM_H_
-#define STICTION_CERTIFY_CLAIMS_CLAIM_H_
+#pragma once
 
 #include <span>
 #include <string>
@@ -80,5 +79,3 @@ Json FactorsToJson(const LdltFactors& factors);
 void RequireSymmetricToClaim(const ExactProblem& problem, const std::string& claim);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CLAIM_H_

@@ -7,8 +7,7 @@
 //              some policies and under others not, the certificate is of those under which it does.
 // not decided  `reason` says which budget was spent, or what could not be told.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CLAIM_ANSWER_H_
-#define STICTION_CERTIFY_CLAIMS_CLAIM_ANSWER_H_
+#pragma once
 
 #include <cstdint>
 #include <map>
@@ -61,5 +60,3 @@ bool IsWholeCertificate(const Json& answer);
 std::string ClaimSentence(const Json& answer);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CLAIM_ANSWER_H_

@@ -2,8 +2,7 @@
 // The table of claims. A new claim is a row in a file of its own (claim.h); the checkers in Python have its
 // check once more.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CLAIMS_H_
-#define STICTION_CERTIFY_CLAIMS_CLAIMS_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -23,5 +22,3 @@ SharedJson CertifyClaim(const ExactProblem& problem, const std::string& source, 
                         const ExactFactors* factors = nullptr, const EnumerationWatch& watch = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CLAIMS_H_

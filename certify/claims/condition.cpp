@@ -12,6 +12,7 @@
 #include "certify/claims/safe.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {
@@ -19,11 +20,9 @@ namespace {
 // Every static contact's friction row, the normal row being the one before it.
 template <class Visit>
 void ForEachFriction(const ExactProblem& problem, const Visit& visit) {
-  int row = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    if (contact.HasFrictionRows()) visit(contact, row + 1);
-    row += contact.HasFrictionRows() ? 2 : 1;
-  }
+  ForEachContact(problem, [&](int i, int row, int count) {
+    if (count > 1) visit(problem.contacts[i], row + 1);
+  });
 }
 
 Rational LargestRatio(const ExactProblem& problem, const ExactVector& d, FrictionWeights weights) {
@@ -117,6 +116,14 @@ Rational TimesPowerOfTwo(const Rational& x, long exponent) {
   return product;
 }
 
+// An unsafe problem shows that its condition number is not enough.
+Json ByCondition(const ExactProblem& problem) {
+  if (auto found = ConditionCertificate(problem)) return std::move(*found);
+  Json safety = SafetyCertificateIfDecided(problem);
+  if (safety.is_object() && safety["claim"] == "unsafe") return safety;
+  return "no scaling was found under which the condition number of A is small enough";
+}
+
 }  // namespace
 
 std::optional<Rational> ConditionBound::SafeFriction() const {
@@ -200,18 +207,6 @@ Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness) {
   }
   return {{"condition", ToString(Rational(most / least))}, {"friction", ToString(friction)}};
 }
-
-namespace {
-
-// An unsafe problem shows that its condition number is not enough.
-Json ByCondition(const ExactProblem& problem) {
-  if (auto found = ConditionCertificate(problem)) return std::move(*found);
-  Json safety = SafetyCertificateIfDecided(problem);
-  if (safety.is_object() && safety["claim"] == "unsafe") return safety;
-  return "no scaling was found under which the condition number of A is small enough";
-}
-
-}  // namespace
 
 ClaimRows ConditionClaims() {
   static constexpr Claim kClaims[] = {Claim{"safe-by-condition", CheckSafeByCondition,

@@ -10,8 +10,7 @@
 // every reduced determinant of A, mu is positive: the problem is safe. D changes the unit of each row; to
 // stretch the friction row of a contact alone trades its mu against the condition.
 
-#ifndef STICTION_CERTIFY_CLAIMS_CONDITION_H_
-#define STICTION_CERTIFY_CLAIMS_CONDITION_H_
+#pragma once
 
 #include <optional>
 
@@ -44,5 +43,3 @@ std::optional<Json> ConditionCertificate(const ExactProblem& problem);
 Json CheckSafeByCondition(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_CONDITION_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A certificate as a file for Coq, which proves the claim anew: certify/coq/README.md.
 
-#ifndef STICTION_CERTIFY_CLAIMS_COQ_TEXT_H_
-#define STICTION_CERTIFY_CLAIMS_COQ_TEXT_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -20,5 +19,3 @@ std::vector<std::string> ClaimsForCoq();
 std::string CoqText(const Json& certificate, const ExactProblem& problem, const std::string& source);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_COQ_TEXT_H_

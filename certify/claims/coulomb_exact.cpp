@@ -38,7 +38,6 @@
 #include "certify/exact/krawczyk.h"
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
-#include "corpus/record/sparse_matrix.h"
 #include "corpus/rounded.h"
 #include "solver/problem/gate.h"
 #include "solver/problem/units.h"
@@ -399,17 +398,15 @@ ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f) {
   GateMeter<double> gate;
   gate.Bound(problem, FrictionLaw::kCoulomb, f, GateOf<double>());
   ContactUnits units;
-  int row = 0;
-  for (const Contact<double>& contact : problem.contacts) {
-    const int end = row + (contact.HasFrictionRows() ? 3 : 1);
+  ForEachContact(problem, [&](int, int first, int rows) {
     double force = 0, acceleration = 0;
-    for (; row < end; ++row) {
+    for (int row = first; row < first + rows; ++row) {
       force = std::max(force, of_rows.force(row));
       acceleration = std::max(acceleration, gate.meter().unit(row));
     }
     units.force.push_back(force > 0 ? force : 1);
     units.acceleration.push_back(acceleration > 0 ? acceleration : 1);
-  }
+  });
   return units;
 }
 
@@ -418,10 +415,8 @@ ContactUnits UnitsOf(const Doubles& problem, const Doubles::Vector& f) {
 std::vector<Behavior> BehaviorsNear(const ExactProblem& problem, const Doubles::Vector& a,
                                     const ContactUnits& units) {
   std::vector<Behavior> behaviors;
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const Contact<Rational>& contact = problem.contacts[i];
-    const auto allowed = BehaviorsOf(contact);
+  ForEachContact(problem, [&](int i, int row, int) {
+    const auto allowed = BehaviorsOf(problem.contacts[i]);
     const double zero = kNondegenerate * units.acceleration[i];
     if (allowed.size() == 1 || a[row] > zero) {
       behaviors.push_back(allowed[0]);
@@ -429,8 +424,7 @@ std::vector<Behavior> BehaviorsNear(const ExactProblem& problem, const Doubles::
       const bool slips = allowed.size() == 3 && std::hypot(a[row + 1], a[row + 2]) > zero;
       behaviors.push_back(slips ? Behavior::kSlip : allowed[1]);
     }
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
+  });
   return behaviors;
 }
 

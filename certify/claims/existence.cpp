@@ -9,11 +9,8 @@
 #include <vector>
 
 #include "certify/claims/certificate.h"
-#include "certify/claims/no_solution.h"
-#include "certify/exact/exact.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/solve.h"
-#include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/in_turn.h"
 

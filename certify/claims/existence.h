@@ -9,10 +9,9 @@
 // contact modes, which decide every planar problem that is small enough. In space complete driving and Lemke's
 // method on polygons and the point of the fast method (space.h), which find solutions of Coulomb's law up to a
 // bound, or of (21), (22); then words of touching and separated contacts, which may refute both laws
-// (no_solution.h).
+// (no_solution.cpp).
 
-#ifndef STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
-#define STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
+#pragma once
 
 #include "certify/claims/claim_answer.h"
 #include "certify/exact/enumerate.h"
@@ -26,6 +25,12 @@ namespace stiction {
 ClaimAnswer DecideExistence(const ExactProblem& problem, const Request& request,
                             const EnumerationWatch& watch = {});
 
-}  // namespace stiction
+// The claim `no-solution`: Farkas vectors (farkas.h) that refute every contact mode. Independent of the linear
+// programs: it needs products and signs only.
+//
+// The certificate. Requires: enumeration.ProvesNoSolution(), of this problem; otherwise InternalError.
+SharedJson NoSolutionCertificate(const ExactProblem& problem, const Enumeration& enumeration);
+// A WitnessCheck (witness.h). Facts: words, prefixes.
+Json CheckNoSolution(const ExactProblem& problem, const Json& witness);
 
-#endif  // STICTION_CERTIFY_CLAIMS_EXISTENCE_H_
+}  // namespace stiction

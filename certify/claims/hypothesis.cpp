@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "certify/claims/by_factors.h"
 #include "certify/claims/certificate.h"

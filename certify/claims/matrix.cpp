@@ -8,7 +8,6 @@
 #include "certify/exact/bounds.h"
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
-#include "corpus/record/problem_file.h"
 
 namespace stiction {
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/claims/no_solution.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "certify/claims/existence.h"
 #include "certify/exact/farkas.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"

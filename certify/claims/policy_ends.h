@@ -2,8 +2,7 @@
 // How the published algorithm ends under each of the policies of which something is claimed: exactly in the
 // plane, in space as intervals prove.
 
-#ifndef STICTION_CERTIFY_CLAIMS_POLICY_ENDS_H_
-#define STICTION_CERTIFY_CLAIMS_POLICY_ENDS_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -48,5 +47,3 @@ ClaimAnswer AnswerOfEnds(const std::vector<PolicyEnds>& ends, const ClaimedVerb&
 EndState EndsIn(Outcome outcome);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_POLICY_ENDS_H_

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "certify/claims/no_solution.h"
 #include "certify/exact/cones.h"
 #include "certify/exact/enumerate.h"
 #include "certify/exact/farkas.h"
-#include "certify/exact/verify_solution.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -18,13 +16,11 @@ namespace {
 class Refuter {
  public:
   Refuter(const ExactProblem& problem, const Request& request, const EnumerationWatch& watch)
-      : problem_(problem), request_(request), watch_(watch), polygons_(FirstPolygons(problem)) {
-    int row = 0;
-    for (const auto& contact : problem.contacts) {
-      normals_.push_back(row);
-      row += contact.HasFrictionRows() ? 3 : 1;
-    }
-  }
+      : problem_(problem),
+        request_(request),
+        watch_(watch),
+        polygons_(FirstPolygons(problem)),
+        normals_(NormalRowsOf(problem)) {}
 
   Enumeration Run() {
     ModeWord prefix;

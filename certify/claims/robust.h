@@ -19,8 +19,7 @@
 //
 // Units    r is a number without one. Requires static and frictionless contacts of the plane.
 
-#ifndef STICTION_CERTIFY_CLAIMS_ROBUST_H_
-#define STICTION_CERTIFY_CLAIMS_ROBUST_H_
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -42,5 +41,3 @@ bool LoopsWithin(const ExactProblem& problem, const ExactRun& run, const Request
                  const Rational& radius);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_ROBUST_H_

@@ -23,11 +23,9 @@
 //
 // Units    r is a number without one, L is in m.
 
-#ifndef STICTION_CERTIFY_CLAIMS_ROBUST_SCENE_H_
-#define STICTION_CERTIFY_CLAIMS_ROBUST_SCENE_H_
+#pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "certify/exact/exact.h"
@@ -64,5 +62,3 @@ bool Follows(const TouchingScene& scene, const Rational& radius, const std::vect
 bool IsInBox(const TouchingScene& scene, const Rational& radius, const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_ROBUST_SCENE_H_

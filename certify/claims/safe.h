@@ -51,8 +51,7 @@
 // the successive Schur complements. They are positive as long as all determinants are, so no zero is divided
 // by. Checked without it: every matrix is written down and its determinant found by Gaussian elimination.
 
-#ifndef STICTION_CERTIFY_CLAIMS_SAFE_H_
-#define STICTION_CERTIFY_CLAIMS_SAFE_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -116,5 +115,3 @@ Json CheckSafe(const ExactProblem& problem, const Json& witness);
 Json CheckUnsafe(const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_SAFE_H_

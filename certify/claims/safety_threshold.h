@@ -4,8 +4,7 @@
 // A determinant det R(W) is a polynomial in mu, of a degree that is the number of slips in W. Its first
 // positive root is isolated by Sturm's theorem and narrowed by halving.
 
-#ifndef STICTION_CERTIFY_CLAIMS_SAFETY_THRESHOLD_H_
-#define STICTION_CERTIFY_CLAIMS_SAFETY_THRESHOLD_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -35,5 +34,3 @@ std::optional<SafetyThreshold> FindSafetyThreshold(const ExactProblem& problem);
 std::optional<SafetyThreshold> FindLimitThreshold(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_SAFETY_THRESHOLD_H_

@@ -117,6 +117,21 @@ std::int64_t LengthOf(const Json& json) {
   return length;
 }
 
+// The largest integer whose square is not larger.
+std::int64_t Root(double square) {
+  auto root = static_cast<std::int64_t>(std::sqrt(std::max(square, 0.0)));
+  while (static_cast<double>(root) * static_cast<double>(root) > square) --root;
+  while (static_cast<double>(root + 1) * static_cast<double>(root + 1) <= square) ++root;
+  return root;
+}
+
+// Row i of A and b.
+std::vector<Rational> RowOf(const ExactProblem& problem, int i) {
+  std::vector<Rational> row = {problem.b[i]};
+  for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j));
+  return row;
+}
+
 }  // namespace
 
 Budget::Budget(std::initializer_list<const Json*> values) : before_(length_) {
@@ -152,18 +167,6 @@ double StepOperations(double n, double policies) {
 double StepInSpaceOperations(double n, double coordinates, double times) {
   return std::floor(times * (1 + coordinates) * (n * n * n + 20 * n * n + 300 * n) / 4);
 }
-
-namespace {
-
-// The largest integer whose square is not larger.
-std::int64_t Root(double square) {
-  auto root = static_cast<std::int64_t>(std::sqrt(std::max(square, 0.0)));
-  while (static_cast<double>(root) * static_cast<double>(root) > square) --root;
-  while (static_cast<double>(root + 1) * static_cast<double>(root + 1) <= square) ++root;
-  return root;
-}
-
-}  // namespace
 
 Cost::Cost(double operations) {
   RequireWork(operations * Budget::kShort);
@@ -208,17 +211,6 @@ Cost& Cost::AddBits(std::int64_t bits) {
 std::int64_t Cost::BitsOf(const ExactVector& x) const {
   return Bits({x.data(), static_cast<std::size_t>(x.size())});
 }
-
-namespace {
-
-// Row i of A and b.
-std::vector<Rational> RowOf(const ExactProblem& problem, int i) {
-  std::vector<Rational> row = {problem.b[i]};
-  for (int j = 0; j < problem.rows(); ++j) row.push_back(problem.A(i, j));
-  return row;
-}
-
-}  // namespace
 
 Cost& Cost::LongestRow(const ExactProblem& problem) {
   std::int64_t longest = 0;

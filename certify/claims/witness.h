@@ -4,8 +4,7 @@
 // A witness comes from anywhere. What the functions below expect of it and do not find is thrown as `Rejected`,
 // and ends the check of the certificate: CheckCertificate (certificate.h) makes a reason of it.
 
-#ifndef STICTION_CERTIFY_CLAIMS_WITNESS_H_
-#define STICTION_CERTIFY_CLAIMS_WITNESS_H_
+#pragma once
 
 #include <cstdint>
 #include <initializer_list>
@@ -124,5 +123,3 @@ using WitnessCheck = Json(const ExactProblem&, const Json& witness);
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_CLAIMS_WITNESS_H_

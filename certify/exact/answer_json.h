@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An answer in JSON, over any arithmetic.
 
-#ifndef STICTION_CERTIFY_EXACT_ANSWER_JSON_H_
-#define STICTION_CERTIFY_EXACT_ANSWER_JSON_H_
+#pragma once
 
 #include "certify/exact/solve.h"
 #include "corpus/json.h"
@@ -57,5 +56,3 @@ Json CountersToJson(const Counters& counters);
 std::string_view AnsweredBy(std::string_view method, const Counters& counters);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_ANSWER_JSON_H_

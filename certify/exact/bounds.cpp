@@ -17,16 +17,8 @@ constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 
 Sparse ToDoubles(const AnyProblem& problem) { return problem.entries().A.unaryExpr(&ToDouble); }
 
-Dense ToDoubles(const ExactVector& values) {
-  Dense rounded(values.size());
-  for (int i = 0; i < values.size(); ++i) rounded[i] = ToDouble(values[i]);
-  return rounded;
-}
-
 ExactVector ToExact(const Dense& values) {
-  ExactVector exact(values.size());
-  for (int i = 0; i < values.size(); ++i) exact[i] = Rational(values[i]);
-  return exact;
+  return values.unaryExpr([](double x) { return Rational(x); });
 }
 
 Sparse SymmetricPart(const AnyProblem& problem) { return ToDoubles(Symmetrized(problem)); }
@@ -78,18 +70,10 @@ std::optional<ExactVector> ProposeNegative(const Sparse& S) {
   return ToExact(x);
 }
 
-Rational SumOfProducts(const ExactVector& x, const ExactVector& y) {
-  Rational sum = 0;
-  for (int i = 0; i < x.size(); ++i) {
-    if (x[i] != 0 && y[i] != 0) sum += x[i] * y[i];
-  }
-  return sum;
-}
-
 // abs(A x - b) / abs(b), b /= 0.
 double RelativeResidual(const AnyProblem& problem, const ExactVector& x) {
   const ExactVector residual = problem.entries().A * x - problem.b();
-  const Rational square = SumOfProducts(residual, residual) / SumOfProducts(problem.b(), problem.b());
+  const Rational square = residual.squaredNorm() / problem.b().squaredNorm();
   return std::sqrt(ToDouble(square)) * (1 + 4 * kUnit);
 }
 
@@ -121,10 +105,10 @@ CurvatureBounds BoundCurvature(const AnyProblem& problem) {
   const Sparse S = SymmetricPart(problem);
   bounds.scale = S.diagonal().cwiseAbs().maxCoeff();
   if (const auto x = ProposeNegative(S)) {
-    const Rational value = SumOfProducts(*x, problem.entries().A * *x);
+    const Rational value = x->dot(problem.entries().A * *x);
     if (value < 0) {
       bounds.negative = Obstacle{*x, value};
-      bounds.most = ToDouble(value / SumOfProducts(*x, *x));
+      bounds.most = ToDouble(value / x->squaredNorm());
     }
   }
   // From a shift down, which shows more than semidefinite, to larger and larger shifts up.
@@ -138,7 +122,7 @@ CurvatureBounds BoundCurvature(const AnyProblem& problem) {
 
 RangeDistance BoundRangeDistance(const AnyProblem& problem) {
   RangeDistance best{ExactVector::Constant(problem.rows(), Rational(0)), 1, 1};
-  const Dense b = ToDoubles(problem.b());
+  const Dense b = problem.b().unaryExpr(&ToDouble);
   if (b.size() == 0 || b.cwiseAbs().maxCoeff() == 0) return {best.x, 0, 0};
   const Sparse S = SymmetricPart(problem), A = ToDoubles(problem);
   const double scale = LargestRowSum(S);

@@ -16,8 +16,7 @@
 // minus all that, taken twice for the rounding of these few sums. Cost: that of sparse Cholesky factorizations,
 // and of sparse products of rationals.
 
-#ifndef STICTION_CERTIFY_EXACT_BOUNDS_H_
-#define STICTION_CERTIFY_EXACT_BOUNDS_H_
+#pragma once
 
 #include <optional>
 
@@ -47,5 +46,3 @@ RangeDistance BoundRangeDistance(const AnyProblem& problem);
 bool IsRegularModuloPrime(const AnyProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_BOUNDS_H_

@@ -2,8 +2,7 @@
 // Forces in the middle of their cones: where accelerations do not tell forces apart, those furthest from all
 // edges.
 
-#ifndef STICTION_CERTIFY_EXACT_CENTRING_H_
-#define STICTION_CERTIFY_EXACT_CENTRING_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -23,5 +22,3 @@ Eigen::VectorXd Centred(const Eigen::VectorXd& z, const Eigen::MatrixXd& unfelt,
                         const std::vector<CentredCone>& cones);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_CENTRING_H_

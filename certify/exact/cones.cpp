@@ -124,16 +124,14 @@ ExactVector Combined(const std::vector<ConeEdge>& edges, const Point& x, int row
 bool AddCorners(const ExactProblem& problem, EdgesOf which, const ExactVector& x, RationalPolygons& polygons) {
   const int sign = which == EdgesOf::kAroundCone ? 1 : -1;
   bool added = false;
-  int row = 0;
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const Contact<Rational>& contact = problem.contacts[i];
     const bool round = contact.kind == ContactKind::kStatic && contact.mu > 0;
     if (round && !IsWithin(contact.mu, which == EdgesOf::kWithinCone, x, row)) {
       const Planar<Rational> tangent = TangentialOf(x, row);
       added |= AddCorner({Rational(sign * tangent[0]), Rational(sign * tangent[1])}, polygons[i]);
     }
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
-  }
+  });
   return added;
 }
 

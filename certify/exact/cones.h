@@ -15,8 +15,7 @@
 // the last in a cone that contains K: so if g.v >= 0 for every edge around K, g is in K*. In the plane the
 // corners are 1 and -1, and all of these are the cones themselves.
 
-#ifndef STICTION_CERTIFY_EXACT_CONES_H_
-#define STICTION_CERTIFY_EXACT_CONES_H_
+#pragma once
 
 #include <vector>
 
@@ -59,5 +58,3 @@ ExactVector Combined(const std::vector<ConeEdge>& edges, const Point& x, int row
 bool AddCorners(const ExactProblem& problem, EdgesOf which, const ExactVector& x, RationalPolygons& polygons);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_CONES_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of (A b) that follow from others, told over rationals, and remembered.
 
-#ifndef STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_
-#define STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_
+#pragma once
 
 #include <map>
 #include <utility>
@@ -39,5 +38,3 @@ std::map<int, ExactProblem::Vector> WeightsOfDependent(const ExactProblem& probl
                                                        const std::vector<int>& listed);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_DEPENDENT_ROWS_H_

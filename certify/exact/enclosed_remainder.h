@@ -2,8 +2,7 @@
 // Runs over enclosures on what bilateral and sliding contacts leave of a problem, told in its terms: they leave
 // over rationals, before numbers are enclosed.
 
-#ifndef STICTION_CERTIFY_EXACT_ENCLOSED_REMAINDER_H_
-#define STICTION_CERTIFY_EXACT_ENCLOSED_REMAINDER_H_
+#pragma once
 
 #include <optional>
 
@@ -98,5 +97,3 @@ class EnclosedRemainder {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_ENCLOSED_REMAINDER_H_

@@ -3,7 +3,7 @@
 // of none.
 //
 // Words are searched depth first by their prefixes, the contacts behind a prefix relaxed (RelaxedCone). An
-// infeasible prefix ends the search below it with one Farkas vector (no_solution.h), which refutes all its
+// infeasible prefix ends the search below it with one Farkas vector (no_solution.cpp), which refutes all its
 // completions.
 //
 // In space a word is refuted, or it is left open (RefuteInSpace): its programs have polygons around the
@@ -15,8 +15,7 @@
 //               it says is believed: witnesses and Farkas vectors are verified here over rationals.
 // Determinism   the result depends on the problem alone.
 
-#ifndef STICTION_CERTIFY_EXACT_ENUMERATE_H_
-#define STICTION_CERTIFY_EXACT_ENUMERATE_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -36,7 +35,7 @@ struct WordSolution {
 
 struct RefutedPrefix {
   ModeWord modes;
-  ExactVector y;  // integers without a common factor; no_solution.h says what it proves
+  ExactVector y;  // integers without a common factor; no_solution.cpp says what it proves
 };
 
 enum class EnumerationEnd : std::uint8_t { kComplete, kStopped, kLimit, kOpen };
@@ -73,5 +72,3 @@ Enumeration RefuteInSpace(const ExactProblem& problem, const Request& request = 
                           const EnumerationWatch& watch = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_ENUMERATE_H_

@@ -61,18 +61,6 @@ ExactRun RunRemaining(const ExactProblem& problem, const Request& request) {
   return run;
 }
 
-}  // namespace
-
-ExactRun RunExact(const ExactProblem& problem, const Request& request) {
-  const Remainder<Rational> remainder(problem);
-  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), request))
-                                              : Unstarted(problem, VerdictOn(remainder));
-  run.policy = request.policy;
-  return run;
-}
-
-namespace {
-
 // Runs policies one by one and remembers which others each run speaks for.
 class GridRunner {
  public:
@@ -103,6 +91,14 @@ class GridRunner {
 };
 
 }  // namespace
+
+ExactRun RunExact(const ExactProblem& problem, const Request& request) {
+  const Remainder<Rational> remainder(problem);
+  ExactRun run = remainder.Obstacle().empty() ? Restored(remainder, RunRemaining(remainder.problem(), request))
+                                              : Unstarted(problem, VerdictOn(remainder));
+  run.policy = request.policy;
+  return run;
+}
 
 std::vector<PolicyClass> RunPolicies(const ExactProblem& problem, const std::vector<Policy>& policies,
                                      const Limits& limits, const std::function<bool()>& cancelled) {

@@ -7,8 +7,7 @@
 // all rows. Where they cannot leave it, the run ends in `singular` before its first step, and the reason says
 // why.
 
-#ifndef STICTION_CERTIFY_EXACT_EXACT_H_
-#define STICTION_CERTIFY_EXACT_EXACT_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -59,5 +58,3 @@ std::string VariableName(const RowLayout<Eigen::Dynamic>& layout, int row);
 std::vector<std::string> VariableNames(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_EXACT_H_

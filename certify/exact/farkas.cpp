@@ -19,21 +19,7 @@ Rational SlipOf(const Contact<Rational>& contact) {
   return contact.kind == ContactKind::kSliding ? contact.slip[0] : Rational(0);
 }
 
-}  // namespace
-
-FarkasVector MakeFarkasVector(const ExactProblem& problem, const ExactVector& y) {
-  FarkasVector farkas = {y, ExactVector::Constant(problem.rows(), Rational(0)), 0};
-  for (int i = 0; i < problem.rows(); ++i) {
-    if (y[i] == 0) continue;
-    for (int j = 0; j < problem.rows(); ++j) farkas.g[j] += problem.A(i, j) * y[i];
-    farkas.value += problem.b[i] * y[i];
-  }
-  return farkas;
-}
-
-namespace {
-
-// The same in space: of touch and break, of contacts with friction rows.
+// TermIsNonnegative in space: of touch and break, of contacts with friction rows.
 bool TermIsNonnegativeInSpace(const Contact<Rational>& contact, int row, Mode mode,
                               const FarkasVector& farkas) {
   const ExactVector &y = farkas.y, &g = farkas.g;
@@ -45,7 +31,32 @@ bool TermIsNonnegativeInSpace(const Contact<Rational>& contact, int row, Mode mo
   return g[row] <= 0 && contact.mu * contact.mu * square <= g[row] * g[row];
 }
 
+// The first contact and mode whose term can be negative.
+std::optional<std::pair<std::size_t, Mode>> FindGap(const ExactProblem& problem, const ModeWord& prefix,
+                                                    const FarkasVector& farkas) {
+  int row = 0;
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
+    const auto modes = i < prefix.size() ? std::span(&prefix[i], 1) : ModesOf(contact, problem.dimension);
+    for (const Mode mode : modes) {
+      if (!TermIsNonnegative(contact, row, mode, farkas, problem.dimension)) return std::pair(i, mode);
+    }
+    row += contact.HasFrictionRows() ? problem.dimension : 1;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+FarkasVector MakeFarkasVector(const ExactProblem& problem, const ExactVector& y) {
+  FarkasVector farkas = {y, ExactVector::Constant(problem.rows(), Rational(0)), 0};
+  for (int i = 0; i < problem.rows(); ++i) {
+    if (y[i] == 0) continue;
+    for (int j = 0; j < problem.rows(); ++j) farkas.g[j] += problem.A(i, j) * y[i];
+    farkas.value += problem.b[i] * y[i];
+  }
+  return farkas;
+}
 
 bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, const FarkasVector& farkas,
                        int dimension) {
@@ -69,25 +80,6 @@ bool TermIsNonnegative(const Contact<Rational>& contact, int row, Mode mode, con
   }
   return false;
 }
-
-namespace {
-
-// The first contact and mode whose term can be negative.
-std::optional<std::pair<std::size_t, Mode>> FindGap(const ExactProblem& problem, const ModeWord& prefix,
-                                                    const FarkasVector& farkas) {
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const auto& contact = problem.contacts[i];
-    const auto modes = i < prefix.size() ? std::span(&prefix[i], 1) : ModesOf(contact, problem.dimension);
-    for (const Mode mode : modes) {
-      if (!TermIsNonnegative(contact, row, mode, farkas, problem.dimension)) return std::pair(i, mode);
-    }
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 bool Refutes(const ExactProblem& problem, const ModeWord& prefix, const FarkasVector& farkas) {
   return farkas.value < 0 && !FindGap(problem, prefix, farkas);

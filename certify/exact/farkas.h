@@ -23,8 +23,7 @@
 // which is all that Coulomb's law and (21), (22) both ask of fN, fF, aN, so the claim is of either. A problem
 // without a solution need not have such vectors there: which way a contact slips is not in them.
 
-#ifndef STICTION_CERTIFY_EXACT_FARKAS_H_
-#define STICTION_CERTIFY_EXACT_FARKAS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -53,5 +52,3 @@ std::optional<std::string> FindRefutationGap(const ExactProblem& problem, const 
                                              const FarkasVector& farkas);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_FARKAS_H_

@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "certify/exact/line_process.h"
-#include "certify/exact/nearby_words.h"
 #include "certify/exact/qp.h"
 #include "corpus/json.h"
 #include "solver/problem/check.h"

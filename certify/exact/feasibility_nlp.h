@@ -31,8 +31,7 @@
 // Determinism   Ipopt's iterations depend on the machine's libraries: what is proposed is not part of a unit.
 // Source        [Baraff94], 5.1, equations (17), (18); equation (5) without friction.
 
-#ifndef STICTION_CERTIFY_EXACT_FEASIBILITY_NLP_H_
-#define STICTION_CERTIFY_EXACT_FEASIBILITY_NLP_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -100,5 +99,3 @@ class IpoptProposer {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_FEASIBILITY_NLP_H_

@@ -4,12 +4,10 @@
 #include <array>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/enclosed_remainder.h"
-#include "certify/exact/exact.h"
 #include "certify/exact/inexact.h"
 #include "certify/exact/long_float.h"
 #include "certify/exact/nearby_words.h"

@@ -21,14 +21,12 @@
 // forces. Kinds: bilateral and sliding contacts leave the problem exactly, before it is enclosed (reduction.h);
 // a run is told in the terms of the whole problem, as those of exact.h.
 
-#ifndef STICTION_CERTIFY_EXACT_FILTERED_H_
-#define STICTION_CERTIFY_EXACT_FILTERED_H_
+#pragma once
 
 #include <span>
 #include <string_view>
 #include <variant>
 
-#include "certify/exact/exact.h"
 #include "certify/exact/solve.h"
 #include "corpus/exact_problem.h"
 #include "solver/problem/ball.h"
@@ -78,5 +76,3 @@ using CertifiedAnswer = std::variant<std::monostate, ExactAnswer, InexactAnswer>
 CertifiedAnswer CertifyDoubles(std::string_view method, const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_FILTERED_H_

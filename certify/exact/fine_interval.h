@@ -10,8 +10,7 @@
 //
 // Bits   those of the thread, from the making of a FineBits to its end: no number outlives it.
 
-#ifndef STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_
-#define STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -266,5 +265,3 @@ struct NumTraits<stiction::FineInterval> : GenericNumTraits<stiction::FineInterv
 };
 
 }  // namespace Eigen
-
-#endif  // STICTION_CERTIFY_EXACT_FINE_INTERVAL_H_

@@ -12,8 +12,7 @@
 // polyhedral, only if, too. For a symmetric A, b in range(A) is the case g = 0. Sliding contacts have no such
 // cone: problems that have them are refused.
 
-#ifndef STICTION_CERTIFY_EXACT_HYPOTHESIS_H_
-#define STICTION_CERTIFY_EXACT_HYPOTHESIS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -40,5 +39,3 @@ bool HasSlidingContact(const ExactProblem& problem);
 std::variant<std::monostate, ExactVector, Obstacle> DecideHypothesis(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_HYPOTHESIS_H_

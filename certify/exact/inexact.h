@@ -2,13 +2,9 @@
 // Answers over floating-point numbers, told in doubles; and the published algorithm in space, run again where
 // it does not end solved. For units that define a table of methods, or choose from it.
 
-#ifndef STICTION_CERTIFY_EXACT_INEXACT_H_
-#define STICTION_CERTIFY_EXACT_INEXACT_H_
+#pragma once
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
 
 #include "certify/exact/solve.h"
 #include "corpus/rounded.h"
@@ -63,5 +59,3 @@ inline void RequireReading(int dimension, const Request& request) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_INEXACT_H_

@@ -4,12 +4,10 @@
 //
 // A comparison that the ends do not decide throws UnsureComparison.
 
-#ifndef STICTION_CERTIFY_EXACT_INTERVAL_H_
-#define STICTION_CERTIFY_EXACT_INTERVAL_H_
+#pragma once
 
 #include <CGAL/Interval_nt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -73,5 +71,3 @@ std::vector<Enclosure> Enclosures(const Vector& values) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_INTERVAL_H_

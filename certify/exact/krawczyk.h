@@ -7,8 +7,7 @@
 // 1969;
 //          R. E. Moore, SIAM J. Numer. Anal. 14, 1977. certify/certificates.md has the proof.
 
-#ifndef STICTION_CERTIFY_EXACT_KRAWCZYK_H_
-#define STICTION_CERTIFY_EXACT_KRAWCZYK_H_
+#pragma once
 
 #include <optional>
 #include <utility>
@@ -50,5 +49,3 @@ std::optional<std::pair<int, Rational>> FindLeaving(const std::vector<Quadratic<
                                                     const ExactMatrix& inverse, const Rational& radius);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_KRAWCZYK_H_

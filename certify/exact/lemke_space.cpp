@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "certify/exact/exact.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/remainder.h"
 
@@ -34,12 +33,9 @@ LawCell CellOf(const Contact<Rational>& contact, const FrictionPolygon<Rational>
 CellWord WordOf(const ExactProblem& problem, const RationalPolygons& polygons, const ExactVector& f,
                 const ExactVector& a) {
   CellWord word;
-  int row = 0;
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const Contact<Rational>& contact = problem.contacts[i];
-    word.push_back(CellOf(contact, polygons[i], &f[row], &a[row]));
-    row += contact.HasFrictionRows() ? 3 : 1;
-  }
+  ForEachContact(problem, [&](int i, int row, int) {
+    word.push_back(CellOf(problem.contacts[i], polygons[i], &f[row], &a[row]));
+  });
   return word;
 }
 

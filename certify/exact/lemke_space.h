@@ -6,8 +6,7 @@
 // in, and `pieces` counts pivots, the linear pieces of this path. Without sliding contacts, A symmetric
 // positive semidefinite and b in range(A), it ends in `solved` (solver/lemke/lemke.h).
 
-#ifndef STICTION_CERTIFY_EXACT_LEMKE_SPACE_H_
-#define STICTION_CERTIFY_EXACT_LEMKE_SPACE_H_
+#pragma once
 
 #include "certify/exact/polygons.h"
 
@@ -19,5 +18,3 @@ OnPolygons RunLemkeInSpace(const ExactProblem& problem, RationalPolygons polygon
                            Trace<Rational>* trace = nullptr);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LEMKE_SPACE_H_

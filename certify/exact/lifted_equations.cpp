@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/lifted_equations.h"
-
 #include <flint/fmpq_mat.h>
 #include <flint/nmod_mat.h>
 
 #include <vector>
+
+#include "certify/exact/linear_equations.h"
 
 namespace stiction {
 namespace {

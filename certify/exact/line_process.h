@@ -2,8 +2,7 @@
 // A program of its own that is asked and answers line by line: stiction-ipopt (feasibility_nlp.h), a solver
 // under test (search/under_test/). Nothing that it does stops or outlives the process that asks it.
 
-#ifndef STICTION_CERTIFY_EXACT_LINE_PROCESS_H_
-#define STICTION_CERTIFY_EXACT_LINE_PROCESS_H_
+#pragma once
 
 #include <sys/types.h>
 
@@ -87,5 +86,3 @@ class LineProcess {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LINE_PROCESS_H_

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear equations over rationals.
+// Linear equations over rationals: by elimination, or, hundreds of them, by Dixon's p-adic lifting (FLINT).
+//
+// Source  J. D. Dixon, Exact solution of linear equations using p-adic expansions, Numerische Mathematik 40,
+//         1982.
+// Cost    of lifting: O(size^3) operations on machine words, and size^2 for each digit of the solution.
 
-#ifndef STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_
-#define STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_
+#pragma once
 
 #include <optional>
 
@@ -15,6 +18,11 @@ namespace stiction {
 std::optional<ExactVector> SolveEquations(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
 
-}  // namespace stiction
+// As SolveEquations, and the same numbers. Rows and columns are chosen that are
+// independent modulo a prime of 62 bits, and so are; the other rows are checked. Where that prime divides a
+// minor there may be more: then it may say of equations that have a solution that they contradict each other,
+// never the reverse.
+std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
+                                          const ExactVector& guess);
 
-#endif  // STICTION_CERTIFY_EXACT_LINEAR_EQUATIONS_H_
+}  // namespace stiction

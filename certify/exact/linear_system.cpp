@@ -55,6 +55,16 @@ std::variant<Point, Combination> SolveWithoutVariables(const LinearSystem& syste
   return Point();
 }
 
+// `scale`: by which the row is multiplied, > 0.
+LinearSystem::Row IntegerRow(const RationalRow& rational, mpz_class& scale) {
+  scale = rational.constant.get_den();
+  for (const Rational& x : rational.coefficients) scale = lcm(scale, x.get_den());
+  const auto scaled = [&scale](const Rational& x) { return mpz_class(x.get_num() * (scale / x.get_den())); };
+  LinearSystem::Row row{{}, scaled(rational.constant), rational.relation};
+  for (const Rational& x : rational.coefficients) row.coefficients.push_back(scaled(x));
+  return row;
+}
+
 }  // namespace
 
 std::variant<Point, Combination> Solve(const LinearSystem& system) {
@@ -87,20 +97,6 @@ std::variant<Point, Combination> Solve(const LinearSystem& system) {
   }
   return x;
 }
-
-namespace {
-
-// `scale`: by which the row is multiplied, > 0.
-LinearSystem::Row IntegerRow(const RationalRow& rational, mpz_class& scale) {
-  scale = rational.constant.get_den();
-  for (const Rational& x : rational.coefficients) scale = lcm(scale, x.get_den());
-  const auto scaled = [&scale](const Rational& x) { return mpz_class(x.get_num() * (scale / x.get_den())); };
-  LinearSystem::Row row{{}, scaled(rational.constant), rational.relation};
-  for (const Rational& x : rational.coefficients) row.coefficients.push_back(scaled(x));
-  return row;
-}
-
-}  // namespace
 
 std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std::vector<RationalRow>& rows) {
   LinearSystem system{free, {}};

@@ -4,8 +4,7 @@
 //
 // Nothing that comes out is to be believed: callers check points, combinations and rays against what they ask.
 
-#ifndef STICTION_CERTIFY_EXACT_LINEAR_SYSTEM_H_
-#define STICTION_CERTIFY_EXACT_LINEAR_SYSTEM_H_
+#pragma once
 
 #include <variant>
 #include <vector>
@@ -58,5 +57,3 @@ std::variant<Point, Multipliers> Solve(const std::vector<bool>& free, const std:
 Answer<Rational> Minimize(const std::vector<std::vector<mpz_class>>& M, const std::vector<mpz_class>& c);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LINEAR_SYSTEM_H_

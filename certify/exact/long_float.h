@@ -4,15 +4,13 @@
 // It is to the nearest in 2^-512 of itself, and its exponents are without a bound here. Radii are doubles, so
 // what falls below the doubles gets a radius of kLost, and what grows beyond them decides nothing.
 
-#ifndef STICTION_CERTIFY_EXACT_LONG_FLOAT_H_
-#define STICTION_CERTIFY_EXACT_LONG_FLOAT_H_
+#pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <limits>
 
 #include "certify/exact/wide_ball.h"
-#include "corpus/rational.h"
 #include "solver/problem/ball.h"
 
 namespace stiction {
@@ -50,5 +48,3 @@ inline LongBall BallAround(const Rational& x) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LONG_FLOAT_H_

@@ -23,8 +23,7 @@
 //
 // Numbers  FineInterval: as many bits as it takes, with derivatives.
 
-#ifndef STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_
-#define STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -70,5 +69,3 @@ std::optional<RunInSpace> ProveRayInSpace(const ExactProblem& problem, const Pol
 std::optional<Rejected> FindRayFault(const ExactProblem& problem, const Policy& policy, const RunInSpace& ray);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_LOOPS_IN_SPACE_H_

@@ -4,9 +4,7 @@
 #include <algorithm>
 
 #include "certify/exact/enumerate.h"
-#include "certify/exact/exact.h"
 #include "certify/exact/feasibility_nlp.h"
-#include "certify/exact/filtered.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/newton_bodies.h"
 #include "certify/exact/qp.h"

@@ -17,11 +17,10 @@
 // finite union of polyhedra, one per word; a degenerate solution lies in several.
 //
 // In space a static contact has break and touch whatever its mu; touch is fN >= 0, aN = 0, fF.fF <= mu^2 fN^2,
-// aF free, which is no more than what its law implies. So words there can refute (no_solution.h), and not
+// aF free, which is no more than what its law implies. So words there can refute (no_solution.cpp), and not
 // solve.
 
-#ifndef STICTION_CERTIFY_EXACT_MODES_H_
-#define STICTION_CERTIFY_EXACT_MODES_H_
+#pragma once
 
 #include <cstdint>
 #include <span>
@@ -76,5 +75,3 @@ bool MeetsModes(const ExactProblem& problem, const ModeWord& prefix, const Exact
                 const ExactVector& a);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_MODES_H_

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/exact/lifted_equations.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
 #include "solver/linear/elimination.ipp"
 #include "solver/problem/check.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {
@@ -159,8 +159,7 @@ struct WordEquations {
   using Problem = ContactProblem<Scalar>;
 
   WordEquations(const Problem& problem, const ModeWord& word) {
-    int row = 0;
-    for (std::size_t i = 0; i < word.size(); ++i) {
+    ForEachContact(problem, [&](int i, int row, int) {
       const auto& contact = problem.contacts[i];
       Scalar f_t(0);
       if (word[i] == kSlipPlus) f_t = -contact.mu;
@@ -168,8 +167,7 @@ struct WordEquations {
       if (word[i] == kTouch && contact.kind == ContactKind::kSliding) f_t = -contact.mu * contact.slip[0];
       if (word[i] != kBreak) unknowns.push_back({row, f_t});
       if (word[i] == kStick) unknowns.push_back({row + 1, Scalar(0)});
-      row += contact.HasFrictionRows() ? 2 : 1;
-    }
+    });
     const int size = static_cast<int>(unknowns.size());
     M.resize(size, size);
     right.resize(size);

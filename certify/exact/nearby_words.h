@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words of contact modes near a point of doubles, and their equations solved exactly (feasibility_nlp.h).
 
-#ifndef STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_
-#define STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -67,5 +66,3 @@ Answer<Rational> SolveNear(const ExactProblem& problem, const ScaledProblem& sca
                            const std::vector<double>& f, int words, std::set<ModeWord>& tried);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_NEARBY_WORDS_H_

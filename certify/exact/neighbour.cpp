@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "certify/exact/verify_solution.h"

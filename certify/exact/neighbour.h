@@ -15,8 +15,7 @@
 //
 // Shapes: f rows x 1. Problems of rationals; of doubles and floats their own numbers.
 
-#ifndef STICTION_CERTIFY_EXACT_NEIGHBOUR_H_
-#define STICTION_CERTIFY_EXACT_NEIGHBOUR_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -48,5 +47,3 @@ std::optional<std::string> FindMiss(const ExactProblem& problem, const ExactVect
 double ExactResidual(const ExactProblem& problem, const ExactVector& f, const Gate& gate = GateOf<double>());
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_NEIGHBOUR_H_

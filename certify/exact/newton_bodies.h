@@ -9,8 +9,7 @@
 //
 // By Coulomb's law, for contacts of all kinds.
 
-#ifndef STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_
-#define STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_
+#pragma once
 
 #include "certify/exact/solve.h"
 #include "corpus/record/factors.h"
@@ -38,5 +37,3 @@ void JudgeExactly(const Problem& problem, const ExactProblem::Vector& f, const E
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_NEWTON_BODIES_H_

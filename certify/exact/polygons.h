@@ -2,12 +2,10 @@
 // Solutions in space on friction polygons, exact: runs of complete driving and of Lemke's method, again on
 // polygons with more corners, toward a law of the circle. space.h has the laws; here is (21), (22).
 
-#ifndef STICTION_CERTIFY_EXACT_POLYGONS_H_
-#define STICTION_CERTIFY_EXACT_POLYGONS_H_
+#pragma once
 
 #include <functional>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "certify/exact/properties.h"
@@ -69,5 +67,3 @@ inline Planar<Rational> TangentialOf(const ExactVector& values, int row) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_POLYGONS_H_

@@ -169,6 +169,22 @@ void Reap(pid_t program, int control, bool& ended) {
   }
 }
 
+// Whether there were any.
+bool KillMarkedOnce(std::string_view mark) {
+  bool found = false;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    const std::string name = entry.path().filename();
+    if (std::isdigit(static_cast<unsigned char>(name[0])) == 0) continue;
+    std::ifstream file(entry.path() / "environ", std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (text.find(mark) == std::string::npos) continue;
+    found = true;
+    kill(std::atoi(name.c_str()), SIGKILL);
+  }
+  return found;
+}
+
 }  // namespace
 
 void Guard(const GuardFiles& files, char* const* arguments, char* const* environment) {
@@ -197,26 +213,6 @@ void Guard(const GuardFiles& files, char* const* arguments, char* const* environ
   KillAll(program, waiting);
   _exit(0);
 }
-
-namespace {
-
-// Whether there were any.
-bool KillMarkedOnce(std::string_view mark) {
-  bool found = false;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
-    const std::string name = entry.path().filename();
-    if (std::isdigit(static_cast<unsigned char>(name[0])) == 0) continue;
-    std::ifstream file(entry.path() / "environ", std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (text.find(mark) == std::string::npos) continue;
-    found = true;
-    kill(std::atoi(name.c_str()), SIGKILL);
-  }
-  return found;
-}
-
-}  // namespace
 
 void KillMarked(std::string_view mark) {
   constexpr int kMost = 100, kQuiet = 5;  // looks: a process that begins while one goes on may not be seen

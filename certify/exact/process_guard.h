@@ -7,8 +7,7 @@
 // in; the guard kills children until it has none. If the program kills the guard, PR_SET_PDEATHSIG kills the
 // program, and we kill what bears its mark (KillMarked).
 
-#ifndef STICTION_CERTIFY_EXACT_PROCESS_GUARD_H_
-#define STICTION_CERTIFY_EXACT_PROCESS_GUARD_H_
+#pragma once
 
 #include <sys/types.h>
 
@@ -42,5 +41,3 @@ struct GuardFiles {
 void KillMarked(std::string_view mark);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_PROCESS_GUARD_H_

@@ -14,32 +14,10 @@ ExactVector SolveTransposed(const ExactMatrix& L, ExactVector y) {
   return y;
 }
 
-ExactVector Zeros(int size) {
-  ExactVector zeros(size);
-  for (int i = 0; i < size; ++i) zeros[i] = 0;
-  return zeros;
-}
-
-ExactMatrix Identity(int size) {
-  ExactMatrix identity(size, size);
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) identity(i, j) = i == j ? 1 : 0;
-  }
-  return identity;
-}
-
-ExactMatrix SymmetricPart(const ExactMatrix& A) {
-  ExactMatrix S(A.rows(), A.cols());
-  for (int i = 0; i < A.rows(); ++i) {
-    for (int j = 0; j < A.cols(); ++j) S(i, j) = (A(i, j) + A(j, i)) / 2;
-  }
-  return S;
-}
-
 // y with y'Sy < 0 for a Schur complement S whose leading entry, at k, has no legal pivot. Empty if it has.
 std::optional<ExactVector> CurvatureOfSchur(const ExactMatrix& S, int k) {
   const int size = static_cast<int>(S.rows());
-  ExactVector y = Zeros(size);
+  ExactVector y = ExactVector::Zero(size);
   if (S(k, k) < 0) {
     y[k] = 1;
     return y;
@@ -84,15 +62,12 @@ std::optional<std::pair<int, int>> FindAsymmetry(const ExactMatrix& A) {
 
 std::variant<LdltFactors, Obstacle> DecideSemidefinite(const ExactMatrix& A) {
   const int size = static_cast<int>(A.rows());
-  ExactMatrix S = SymmetricPart(A);
-  LdltFactors factors{Identity(size), Zeros(size)};
+  ExactMatrix S = (A + A.transpose()) / Rational(2);
+  LdltFactors factors{ExactMatrix::Identity(size, size), ExactVector::Zero(size)};
   for (int k = 0; k < size; ++k) {
     if (const auto y = CurvatureOfSchur(S, k)) {
-      Obstacle witness{SolveTransposed(factors.L, *y), 0};
-      for (int i = 0; i < size; ++i) {
-        for (int j = 0; j < size; ++j) witness.value += witness.x[i] * A(i, j) * witness.x[j];
-      }
-      return witness;
+      const ExactVector x = SolveTransposed(factors.L, *y);
+      return Obstacle{x, x.dot(A * x)};
     }
     factors.D[k] = S(k, k);
     EliminateColumn(S, factors.L, k);
@@ -104,7 +79,7 @@ std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A) {
   auto decision = DecideSemidefinite(A);
   const auto* factors = std::get_if<LdltFactors>(&decision);
   for (int k = 0; factors != nullptr && k < factors->D.size(); ++k) {
-    if (factors->D[k] == 0) return Obstacle{SolveTransposed(factors->L, Identity(A.rows()).col(k)), 0};
+    if (factors->D[k] == 0) return Obstacle{SolveTransposed(factors->L, ExactVector::Unit(A.rows(), k)), 0};
   }
   return decision;
 }
@@ -115,7 +90,7 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
   ExactMatrix M(size, 2 * size + 1);
   M.leftCols(size) = A;
   M.col(size) = b;
-  M.rightCols(size) = Identity(size);
+  M.rightCols(size).setIdentity();
   std::vector<int> pivot_column;
   for (int column = 0; column < size; ++column) {
     const int rank = static_cast<int>(pivot_column.size());
@@ -132,7 +107,7 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
   for (int i = rank; i < size; ++i) {
     if (M(i, size) != 0) return Obstacle{M.row(i).tail(size).transpose(), M(i, size)};
   }
-  ExactVector x = Zeros(size);
+  ExactVector x = ExactVector::Zero(size);
   for (int i = 0; i < rank; ++i) x[pivot_column[i]] = M(i, size) / M(i, pivot_column[i]);
   return x;
 }

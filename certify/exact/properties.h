@@ -9,8 +9,7 @@
 // Assumed in section 3 of [Baraff94] ("A is symmetric and positive semidefinite, and b is a vector in the
 // column space of A"); properties of a problem, never conditions of its validity.
 
-#ifndef STICTION_CERTIFY_EXACT_PROPERTIES_H_
-#define STICTION_CERTIFY_EXACT_PROPERTIES_H_
+#pragma once
 
 #include <optional>
 #include <utility>
@@ -56,5 +55,3 @@ bool IsInRange(const ExactProblem& problem);
 bool MeetsAssumptions(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_PROPERTIES_H_

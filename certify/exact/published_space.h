@@ -12,11 +12,9 @@
 //             numbers are rounded or enclosed. Runs are told in the terms of the whole problem, as those of
 //             exact.h: bilateral variables stand in C; where they cannot leave it, the run ends in `singular`.
 
-#ifndef STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
-#define STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_
+#pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "certify/exact/solve.h"
 #include "solver/published/published_space.h"
@@ -34,5 +32,3 @@ inline constexpr std::string_view kStaysInBox = "it never leaves a box";
 InexactAnswer RunIntervalsInSpace(const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_PUBLISHED_SPACE_H_

@@ -13,8 +13,7 @@
 // Exact      A and b are scaled to integers each, f back; CGAL's QP_solver (linear_system.h). Whatever it says
 //            is checked against the problem before it is returned.
 
-#ifndef STICTION_CERTIFY_EXACT_QP_H_
-#define STICTION_CERTIFY_EXACT_QP_H_
+#pragma once
 
 #include "certify/exact/properties.h"
 #include "solver/problem/answer.h"
@@ -29,5 +28,3 @@ Answer<Rational> SolveQp(const ExactProblem& problem);
 void RequireFrictionless(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_QP_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wrong with something that was stated, as a witness: where, what was found there, what was expected.
 
-#ifndef STICTION_CERTIFY_EXACT_REJECTED_H_
-#define STICTION_CERTIFY_EXACT_REJECTED_H_
+#pragma once
 
 #include <string>
 
@@ -13,5 +12,3 @@ struct Rejected {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_REJECTED_H_

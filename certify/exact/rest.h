@@ -15,8 +15,7 @@
 // polygons within K, whose corners are added where the programs say; there none may be found though there are
 // some. A group with a sliding contact is left.
 
-#ifndef STICTION_CERTIFY_EXACT_REST_H_
-#define STICTION_CERTIFY_EXACT_REST_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -54,5 +53,3 @@ std::optional<RestingForces> ForcesAtRest(const ExactProblem& problem, const Exa
                                           const ExactVector& a);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_REST_H_

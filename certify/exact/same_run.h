@@ -3,8 +3,7 @@
 //
 // Included by units that run the published algorithm over an enclosure, after its scalar.
 
-#ifndef STICTION_CERTIFY_EXACT_SAME_RUN_H_
-#define STICTION_CERTIFY_EXACT_SAME_RUN_H_
+#pragma once
 
 #include <algorithm>
 
@@ -42,5 +41,3 @@ bool SameRun(const ContactProblem<Scalar>& box, const ExactRun& run, Request req
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_SAME_RUN_H_

@@ -19,8 +19,7 @@
 // Source: R. Krawczyk, A. Neumaier, Interval slopes for rational functions and associated centered forms, SIAM
 // J. Numer. Anal. 22, 1985 (cited from memory; the rules are derived above).
 
-#ifndef STICTION_CERTIFY_EXACT_SLOPE_H_
-#define STICTION_CERTIFY_EXACT_SLOPE_H_
+#pragma once
 
 #include <algorithm>
 #include <utility>
@@ -165,5 +164,3 @@ struct NumTraits<stiction::Slope> : GenericNumTraits<stiction::Slope> {
 };
 
 }  // namespace Eigen
-
-#endif  // STICTION_CERTIFY_EXACT_SLOPE_H_

@@ -3,15 +3,11 @@
 // rationals, whose methods need CGAL or Ipopt's process. What is called solved was verified by
 // verify_solution.h. request/solve_in.h solves in any arithmetic.
 
-#ifndef STICTION_CERTIFY_EXACT_SOLVE_H_
-#define STICTION_CERTIFY_EXACT_SOLVE_H_
+#pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "corpus/exact_problem.h"
 #include "solver/problem/forms.h"
@@ -45,5 +41,3 @@ struct Solution {
 ExactAnswer SolveExactly(const ExactProblem& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_SOLVE_H_

@@ -20,8 +20,7 @@
 //
 // Whatever is returned as solved was verified by verify_solution.h.
 
-#ifndef STICTION_CERTIFY_EXACT_SPACE_H_
-#define STICTION_CERTIFY_EXACT_SPACE_H_
+#pragma once
 
 #include "certify/exact/polygons.h"
 
@@ -39,5 +38,3 @@ Answer<Rational> SolveNearFast(const ExactProblem& problem, const Request& reque
 Answer<Rational> SolveNear(const ExactProblem& problem, const Request& request, const Eigen::VectorXd& f);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_SPACE_H_

@@ -15,8 +15,7 @@
 // and is the law itself with c = 1. In the plane both laws are one. Lengths in space are compared by their
 // squares.
 
-#ifndef STICTION_CERTIFY_EXACT_VERIFY_SOLUTION_H_
-#define STICTION_CERTIFY_EXACT_VERIFY_SOLUTION_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -47,5 +46,3 @@ std::optional<std::string> FindViolationApart(const ExactProblem& problem, const
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_VERIFY_SOLUTION_H_

@@ -6,8 +6,7 @@
 // themselves, unless parts of them are lost below the least double, which is at most kLost for products and
 // excluded for quotients.
 
-#ifndef STICTION_CERTIFY_EXACT_WIDE_BALL_H_
-#define STICTION_CERTIFY_EXACT_WIDE_BALL_H_
+#pragma once
 
 #include <qd/dd_real.h>
 
@@ -106,5 +105,3 @@ double LowEnd(const Ball<Number>& x) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_EXACT_WIDE_BALL_H_

@@ -16,8 +16,7 @@
 //
 // Of several solutions one is preferred whose contacts rest (rest.h).
 
-#ifndef STICTION_CERTIFY_REQUEST_CASCADE_H_
-#define STICTION_CERTIFY_REQUEST_CASCADE_H_
+#pragma once
 
 #include "certify/exact/solve.h"
 #include "certify/request/posed.h"
@@ -33,5 +32,3 @@ Solution SolveInTurn(Posed& posed, const Request& request);
 Solution SolveNamed(Posed& posed, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_CASCADE_H_

@@ -6,8 +6,7 @@
 // (solver/numeric/coulomb.h); all by Coulomb's law. Errors are those of the returned doubles, evaluated over
 // rationals on the problem itself; `solved` means that they are at most `residual`, by default 1e-8.
 
-#ifndef STICTION_CERTIFY_REQUEST_ENTRIES_H_
-#define STICTION_CERTIFY_REQUEST_ENTRIES_H_
+#pragma once
 
 #include <string_view>
 #include <vector>
@@ -23,5 +22,3 @@ std::vector<std::string_view> MethodsOfEntries(const AnyProblem& problem);
 InexactAnswer SolveEntries(const AnyProblem& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_ENTRIES_H_

@@ -4,8 +4,7 @@
 //
 // What is dear is bounded by these numbers alone.
 
-#ifndef STICTION_CERTIFY_REQUEST_FACTS_H_
-#define STICTION_CERTIFY_REQUEST_FACTS_H_
+#pragma once
 
 #include "corpus/exact_problem.h"
 #include "corpus/json_text.h"
@@ -38,5 +37,3 @@ Json Surveyed(const AnyProblem& problem, const Limits& limits, int dense_rows = 
 Json FailedAssumptions(const AnyProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_FACTS_H_

@@ -2,8 +2,7 @@
 // Posed: a problem as it is put to methods, in the numbers that they take: exact, as that of a file, of which
 // proofs are, and rounded. What is asked for is made once.
 
-#ifndef STICTION_CERTIFY_REQUEST_POSED_H_
-#define STICTION_CERTIFY_REQUEST_POSED_H_
+#pragma once
 
 #include <optional>
 #include <utility>
@@ -75,5 +74,3 @@ class Posed {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_POSED_H_

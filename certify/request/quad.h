@@ -2,8 +2,7 @@
 // Quad: Boost's binary floating point of 113 bits, IEEE's binary128, the same on every compiler; all methods
 // that floating-point scalars have run over it.
 
-#ifndef STICTION_CERTIFY_REQUEST_QUAD_H_
-#define STICTION_CERTIFY_REQUEST_QUAD_H_
+#pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
@@ -34,5 +33,3 @@ extern template const Method<Quad>* FindMethod(std::string_view);
 extern template void JudgeAnswer(const ContactProblem<Quad>&, double, Answer<Quad>&);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_QUAD_H_

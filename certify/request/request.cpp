@@ -9,7 +9,6 @@
 #include "certify/claims/policy_ends.h"
 #include "certify/request/entries.h"
 #include "corpus/json_text.h"
-#include "corpus/record/problem_file.h"
 
 namespace stiction {
 namespace {

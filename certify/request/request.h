@@ -2,13 +2,11 @@
 // What is asked by names, by the program and from Python: of a solver, of a run that is followed, of a
 // certificate. Whatever the names do not fit is refused here, so that both refuse the same.
 
-#ifndef STICTION_CERTIFY_REQUEST_REQUEST_H_
-#define STICTION_CERTIFY_REQUEST_REQUEST_H_
+#pragma once
 
 #include <array>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/enumerate.h"
@@ -59,5 +57,3 @@ SharedJson CertificateOf(const std::string& claim, const Wanted& wanted, const E
 CheckReport CheckText(const std::string& text, const std::string& source, const std::string& digest);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_REQUEST_H_

@@ -2,8 +2,7 @@
 // Of several solutions `auto` prefers one whose contacts rest (exact/rest.h); in space, of solutions whose
 // contacts slip, the one of Newton's method in the space of bodies if it moves less.
 
-#ifndef STICTION_CERTIFY_REQUEST_REST_H_
-#define STICTION_CERTIFY_REQUEST_REST_H_
+#pragma once
 
 #include <functional>
 
@@ -20,5 +19,3 @@ void PreferRest(const ContactProblem<double>& rounded, const std::function<const
                 const Request& request, InexactAnswer& answer);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_REST_H_

@@ -8,8 +8,7 @@
 //             then that of the second run, forces and all; `suspected` says what the first one said.
 //   exact     exact/solve.h.
 
-#ifndef STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
-#define STICTION_CERTIFY_REQUEST_SOLVE_IN_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -64,5 +63,3 @@ Solution SolveIn(const AnyProblem& problem, const Request& request, Stopwatch* w
 Solution SolveDoubles(const ContactProblem<double>& problem, const Request& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CERTIFY_REQUEST_SOLVE_IN_H_

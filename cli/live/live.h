@@ -6,8 +6,7 @@
 // no file, no clock, no thread. Rationals are Boost's (corpus/rational_boost.h). In space, where forces are
 // irrational, the published algorithm runs over doubles alone, and says so. Built for browsers by build.py.
 
-#ifndef STICTION_CLI_LIVE_LIVE_H_
-#define STICTION_CLI_LIVE_LIVE_H_
+#pragma once
 
 #include <string>
 
@@ -28,5 +27,3 @@ inline constexpr int kMostLiveRows = 64;
 std::string AnswerLive(const std::string& request);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_LIVE_LIVE_H_

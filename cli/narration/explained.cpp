@@ -7,9 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "certify/claims/claims.h"

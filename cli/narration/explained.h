@@ -2,8 +2,7 @@
 // One problem in words: what it is, whether it has a solution, what the methods do on it, how sure its forces
 // are, what can be certified, and what to type next.
 
-#ifndef STICTION_CLI_NARRATION_EXPLAINED_H_
-#define STICTION_CLI_NARRATION_EXPLAINED_H_
+#pragma once
 
 #include <string>
 
@@ -25,5 +24,3 @@ Json Explained(const ProblemFile& file, const ExplainOptions& o);
 std::string ExplainedText(const Json& found);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_EXPLAINED_H_

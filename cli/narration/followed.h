@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a path method, told: for `replay`, for its page, and for the page that runs again in a browser.
 
-#ifndef STICTION_CLI_NARRATION_FOLLOWED_H_
-#define STICTION_CLI_NARRATION_FOLLOWED_H_
-
-#include <fmt/format.h>
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -54,5 +51,3 @@ SharedJson ReplayPageData(const ProblemFile& file, const SharedJson& picture,
                           const std::vector<FollowedRun>& runs, bool every_policy = false);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_FOLLOWED_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods and the policies as data.
 
-#ifndef STICTION_CLI_NARRATION_LISTED_H_
-#define STICTION_CLI_NARRATION_LISTED_H_
+#pragma once
 
 #include "corpus/json_text.h"
 
@@ -13,5 +12,3 @@ SharedJson MethodsToJson();
 SharedJson PoliciesToJson();
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_LISTED_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a path method for people and for programs: a line for each step, or all of its numbers.
 
-#ifndef STICTION_CLI_NARRATION_NARRATE_H_
-#define STICTION_CLI_NARRATION_NARRATE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -39,5 +38,3 @@ template <class Scalar>
 Narration NarrateLemke(const ProblemFile& file, const Answer<Scalar>& answer, const Telling& how);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_NARRATE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the narrations of all path methods need: numbers, names of variables, kinds of contacts.
 
-#ifndef STICTION_CLI_NARRATION_NARRATE_TEXT_H_
-#define STICTION_CLI_NARRATION_NARRATE_TEXT_H_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -71,5 +70,3 @@ typename Answer<Scalar>::Vector FirstAccelerations(const ExactProblem& problem, 
 std::string KindsText(const ExactProblem& problem, FractionText fractions);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_NARRATE_TEXT_H_

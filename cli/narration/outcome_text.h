@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and outcomes, for programs and for people.
 
-#ifndef STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
-#define STICTION_CLI_NARRATION_OUTCOME_TEXT_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -32,5 +31,3 @@ std::string Describe(const End& end) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_OUTCOME_TEXT_H_

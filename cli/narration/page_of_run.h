@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The data of the page of a run, for the program and for Python.
 
-#ifndef STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
-#define STICTION_CLI_NARRATION_PAGE_OF_RUN_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -21,5 +20,3 @@ SharedJson PageOfRun(const Wanted& wanted, const ProblemFile& file, const std::s
                      const std::optional<InexactAnswer>& over_intervals);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_PAGE_OF_RUN_H_

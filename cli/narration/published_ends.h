@@ -2,13 +2,11 @@
 // How the published algorithm ends on a problem besides the run that is told: under all readings of its text;
 // in space over intervals, which prove what they decide.
 
-#ifndef STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_
-#define STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_
+#pragma once
 
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "certify/claims/policy_ends.h"
 #include "certify/exact/solve.h"
@@ -33,5 +31,3 @@ std::optional<InexactAnswer> OverIntervals(const ExactProblem& problem, const Re
 std::string OverIntervalsText(const InexactAnswer& answer);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_PUBLISHED_ENDS_H_

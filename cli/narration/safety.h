@@ -2,8 +2,7 @@
 // Whether A is safe (certify/claims/safe.h), weakly safe, safe in the limit, and for which friction: what
 // `certify --safe` and `explain` say, found once.
 
-#ifndef STICTION_CLI_NARRATION_SAFETY_H_
-#define STICTION_CLI_NARRATION_SAFETY_H_
+#pragma once
 
 #include <string>
 
@@ -25,5 +24,3 @@ std::string SafetyText(const Json& safety);
 std::string WordText(const Json& word);
 
 }  // namespace stiction
-
-#endif  // STICTION_CLI_NARRATION_SAFETY_H_

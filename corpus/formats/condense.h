@@ -7,8 +7,7 @@
 // bodies are, the problem keeps its factors J = B', M, w = inv(M) f, c = w. Otherwise, as of finite elements, v
 // is eliminated over rationals.
 
-#ifndef STICTION_CORPUS_FORMATS_CONDENSE_H_
-#define STICTION_CORPUS_FORMATS_CONDENSE_H_
+#pragma once
 
 #include <variant>
 #include <vector>
@@ -29,5 +28,3 @@ std::variant<AnyProblem, int> Condense(const GlobalEquations& equations, int dim
                                        std::vector<Contact<Rational>> contacts, ProblemFile& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_CONDENSE_H_

@@ -22,8 +22,7 @@
 // is refused by its name. Written are local problems, numbers as doubles. `guesses` and `solution` are not
 // read.
 
-#ifndef STICTION_CORPUS_FORMATS_FCLIB_H_
-#define STICTION_CORPUS_FORMATS_FCLIB_H_
+#pragma once
 
 #include <string>
 
@@ -42,5 +41,3 @@ ProblemFile ParseFclib(std::string text, const std::string& source);
 std::string PrintFclib(const ExactEntries& problem, const std::string& title, FclibStorage storage);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_FCLIB_H_

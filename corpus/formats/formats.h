@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formats of others by name: which one a file has, reading it, writing one.
 
-#ifndef STICTION_CORPUS_FORMATS_FORMATS_H_
-#define STICTION_CORPUS_FORMATS_FORMATS_H_
+#pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,5 +40,3 @@ ExportReport WritePublished(const ProblemFile& problem, const std::filesystem::p
                             const std::string& format, const std::string& storage, Rounding rounding);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_FORMATS_H_

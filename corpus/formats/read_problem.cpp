@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string>
 #include <vector>
 
 #include "corpus/formats/formats.h"
 #include "corpus/json_text.h"
 #include "corpus/record/scene_file.h"
-#include "corpus/store/store.h"
 #include "scene/assemble.h"
 
 namespace stiction {
@@ -124,27 +122,6 @@ std::optional<ExactFactors> FactorsOfScene(const Json& json, const std::string& 
   }
 }
 
-}  // namespace
-
-AnyProblem InFactors(const ProblemFile& file) {
-  if (file.problem.factors() != nullptr || !file.scene) return file.problem;
-  auto factors = FactorsOfScene(file.scene, file.name);
-  if (!factors || factors->rows() != file.problem.rows()) return file.problem;
-  const AnyProblem in_factors = *std::move(factors);
-  const ExactProblem &formed = in_factors, &given = file.problem;
-  return formed.A == given.A && formed.b == given.b ? in_factors : file.problem;
-}
-
-std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  const std::size_t end = EndOfStore(source);
-  if (end == source.npos) return std::nullopt;
-  const std::string store = source.substr(0, end);
-  return NamedFinding{store, FindingNamed(store, source.substr(end + 1), source)};
-}
-
-namespace {
-
 ProblemFile ReadAny(const std::filesystem::path& file, const std::string& source) {
   if (const auto named = FindNamed(file)) {
     const Finding& finding = named->finding;
@@ -165,6 +142,23 @@ ProblemFile ReadAny(const std::filesystem::path& file, const std::string& source
 }
 
 }  // namespace
+
+AnyProblem InFactors(const ProblemFile& file) {
+  if (file.problem.factors() != nullptr || !file.scene) return file.problem;
+  auto factors = FactorsOfScene(file.scene, file.name);
+  if (!factors || factors->rows() != file.problem.rows()) return file.problem;
+  const AnyProblem in_factors = *std::move(factors);
+  const ExactProblem &formed = in_factors, &given = file.problem;
+  return formed.A == given.A && formed.b == given.b ? in_factors : file.problem;
+}
+
+std::optional<NamedFinding> FindNamed(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const std::size_t end = EndOfStore(source);
+  if (end == source.npos) return std::nullopt;
+  const std::string store = source.substr(0, end);
+  return NamedFinding{store, FindingNamed(store, source.substr(end + 1), source)};
+}
 
 ProblemFile ReadProblem(const std::filesystem::path& file, int most_rows) {
   const std::string source = file.string();

@@ -10,8 +10,7 @@
 //
 // Which it is the content decides. InputError: what cannot be read, with its place and the next step.
 
-#ifndef STICTION_CORPUS_FORMATS_READ_PROBLEM_H_
-#define STICTION_CORPUS_FORMATS_READ_PROBLEM_H_
+#pragma once
 
 #include <filesystem>
 #include <optional>
@@ -41,5 +40,3 @@ struct NamedFinding {
 std::optional<NamedFinding> FindNamed(const std::filesystem::path& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_READ_PROBLEM_H_

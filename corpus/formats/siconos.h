@@ -22,8 +22,7 @@
 //
 // A number is the IEEE double nearest to its text, which is what Siconos reads.
 
-#ifndef STICTION_CORPUS_FORMATS_SICONOS_H_
-#define STICTION_CORPUS_FORMATS_SICONOS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -44,5 +43,3 @@ ProblemFile ParseSiconos(const std::string& text, std::optional<SiconosKind> kin
 std::string PrintSiconos(const ExactEntries& problem, SiconosKind kind, SiconosStorage storage);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_SICONOS_H_

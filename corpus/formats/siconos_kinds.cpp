@@ -293,10 +293,6 @@ bool IsOfKind(const std::string& text, const OtherKind& kind) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 const OtherKind* FindOtherKind(const std::string& text) {
   const auto kind = std::find_if(kOtherKinds.begin(), kOtherKinds.end(),
                                  [&text](const OtherKind& k) { return IsOfKind(text, k); });

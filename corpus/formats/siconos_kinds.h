@@ -23,8 +23,7 @@
 //
 // Source   the functions printInFile and newFromFile of numerics/src, github.com/siconos/siconos.
 
-#ifndef STICTION_CORPUS_FORMATS_SICONOS_KINDS_H_
-#define STICTION_CORPUS_FORMATS_SICONOS_KINDS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -43,5 +42,3 @@ std::optional<ProblemFile> ParseOtherSiconos(const std::string& text, const std:
 std::string OtherSiconosKind(const std::string& text);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_SICONOS_KINDS_H_

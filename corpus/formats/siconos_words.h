@@ -3,8 +3,7 @@
 //
 // Whatever is not there as expected is an InputError with its line, what was found and what was expected.
 
-#ifndef STICTION_CORPUS_FORMATS_SICONOS_WORDS_H_
-#define STICTION_CORPUS_FORMATS_SICONOS_WORDS_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -88,5 +87,3 @@ class SiconosMatrixReader {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_FORMATS_SICONOS_WORDS_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far A is from symmetric, and A made symmetric.
 
-#ifndef STICTION_CORPUS_RECORD_ASYMMETRY_H_
-#define STICTION_CORPUS_RECORD_ASYMMETRY_H_
+#pragma once
 
 #include "corpus/exact_problem.h"
 #include "corpus/record/problem_file.h"
@@ -22,5 +21,3 @@ AnyProblem Symmetrized(const AnyProblem& problem);
 void Symmetrize(ProblemFile& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_ASYMMETRY_H_

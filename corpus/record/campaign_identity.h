@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a campaign is, as its store says it; what is told of it; and what two campaigns differ in.
 
-#ifndef STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_
-#define STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -44,5 +43,3 @@ std::vector<CampaignDifference> DifferencesOf(const CampaignIdentity& a, const C
 std::string Difference(const CampaignIdentity& stored, const CampaignIdentity& wanted);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_CAMPAIGN_IDENTITY_H_

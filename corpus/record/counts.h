@@ -2,12 +2,10 @@
 // Counts: what came of runs, added up. Whoever tells a number of runs, or a rate, takes both of its counts from
 // one of these, so that summary, text, page, comparison and papers agree.
 
-#ifndef STICTION_CORPUS_RECORD_COUNTS_H_
-#define STICTION_CORPUS_RECORD_COUNTS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "corpus/record/statistics.h"
 
@@ -47,15 +45,8 @@ std::string PoliciesText(const Record& record);
 template <class CountersByContacts>
 auto SumOf(const CountersByContacts& by_contacts) {
   typename CountersByContacts::mapped_type sum;
-  for (const auto& [contacts, counters] : by_contacts) {
-    std::vector<std::int64_t> values;
-    ForEachCounter(counters, [&values](const char*, std::int64_t value) { values.push_back(value); });
-    auto next = values.begin();
-    ForEachCounter(sum, [&next](const char*, std::int64_t& value) { value += *next++; });
-  }
+  for (const auto& [contacts, counters] : by_contacts) AddCounters(sum, counters);
   return sum;
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_COUNTS_H_

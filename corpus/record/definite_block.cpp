@@ -74,6 +74,29 @@ bool IsProvedIndefinite(const Matrix& M, const Eigen::MatrixXd& rounded) {
   return x.dot(y) <= 0;
 }
 
+class FlintMatrix {
+ public:
+  FlintMatrix(int rows, int columns) { fmpq_mat_init(matrix_, rows, columns); }
+  explicit FlintMatrix(const Matrix& M) : FlintMatrix(static_cast<int>(M.rows()), static_cast<int>(M.cols())) {
+    for (int i = 0; i < M.rows(); ++i) {
+      for (int j = 0; j < M.cols(); ++j) fmpq_set_mpq(fmpq_mat_entry(matrix_, i, j), M(i, j).get_mpq_t());
+    }
+  }
+  FlintMatrix(const FlintMatrix&) = delete;
+  FlintMatrix& operator=(const FlintMatrix&) = delete;
+  ~FlintMatrix() { fmpq_mat_clear(matrix_); }
+
+  fmpq_mat_struct* get() { return matrix_; }
+  Rational At(int i, int j) const {
+    Rational x;
+    fmpq_get_mpq(x.get_mpq_t(), fmpq_mat_entry(matrix_, i, j));
+    return x;
+  }
+
+ private:
+  fmpq_mat_t matrix_;
+};
+
 }  // namespace
 
 std::optional<Matrix> InverseOfDefinite(const Matrix& M) {
@@ -105,33 +128,6 @@ Matrix SolveDefinite(const Matrix& M, const Matrix& B) {
 }
 
 #else
-
-namespace {
-
-class FlintMatrix {
- public:
-  FlintMatrix(int rows, int columns) { fmpq_mat_init(matrix_, rows, columns); }
-  explicit FlintMatrix(const Matrix& M) : FlintMatrix(static_cast<int>(M.rows()), static_cast<int>(M.cols())) {
-    for (int i = 0; i < M.rows(); ++i) {
-      for (int j = 0; j < M.cols(); ++j) fmpq_set_mpq(fmpq_mat_entry(matrix_, i, j), M(i, j).get_mpq_t());
-    }
-  }
-  FlintMatrix(const FlintMatrix&) = delete;
-  FlintMatrix& operator=(const FlintMatrix&) = delete;
-  ~FlintMatrix() { fmpq_mat_clear(matrix_); }
-
-  fmpq_mat_struct* get() { return matrix_; }
-  Rational At(int i, int j) const {
-    Rational x;
-    fmpq_get_mpq(x.get_mpq_t(), fmpq_mat_entry(matrix_, i, j));
-    return x;
-  }
-
- private:
-  fmpq_mat_t matrix_;
-};
-
-}  // namespace
 
 // Columns by themselves, so that somebody may stop between them; together they would take about as long.
 Matrix SolveDefinite(const Matrix& M, const Matrix& B) {

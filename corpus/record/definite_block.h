@@ -13,8 +13,7 @@
 //
 // The numbers of a solution are as long as the determinant of M, which is why a whole inverse is not formed.
 
-#ifndef STICTION_CORPUS_RECORD_DEFINITE_BLOCK_H_
-#define STICTION_CORPUS_RECORD_DEFINITE_BLOCK_H_
+#pragma once
 
 #include <optional>
 
@@ -32,5 +31,3 @@ bool IsDefinite(const ExactProblem::Matrix& M);
 ExactProblem::Matrix SolveDefinite(const ExactProblem::Matrix& M, const ExactProblem::Matrix& B);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_DEFINITE_BLOCK_H_

@@ -2,8 +2,7 @@
 // Digests: SHA-256 of bytes, and that of a problem, the same for every file that states the same numbers,
 // however it spells them.
 
-#ifndef STICTION_CORPUS_RECORD_DIGEST_H_
-#define STICTION_CORPUS_RECORD_DIGEST_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -28,5 +27,3 @@ std::string Sha256(std::string_view bytes);
 std::string ProblemDigest(const ExactProblem& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_DIGEST_H_

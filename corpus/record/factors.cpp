@@ -13,7 +13,6 @@
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
 #include "corpus/record/definite_block.h"
-#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

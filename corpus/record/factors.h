@@ -10,8 +10,7 @@
 // Written as they are read, M in blocks as small as it falls into. Of a block of more than kMostWholeInverse
 // velocities inv(M) is not formed over exact numbers (definite_block.h): J inv(M) is.
 
-#ifndef STICTION_CORPUS_RECORD_FACTORS_H_
-#define STICTION_CORPUS_RECORD_FACTORS_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -54,5 +53,3 @@ bool IsInRangeByFactors(const ExactFactors& factors);
 FactoredProblem<double> InDoubles(const ExactFactors& factors);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_FACTORS_H_

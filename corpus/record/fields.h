@@ -9,8 +9,7 @@
 //
 // fields.ipp reads and writes; cli/search.cpp makes options.
 
-#ifndef STICTION_CORPUS_RECORD_FIELDS_H_
-#define STICTION_CORPUS_RECORD_FIELDS_H_
+#pragma once
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -67,5 +66,3 @@ struct ToldOf {
 inline constexpr std::size_t kMostBytesOfLine = 200;
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_FIELDS_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading, writing and shapes of records that are described by fields.
 
-#ifndef STICTION_CORPUS_RECORD_FIELDS_IPP_
-#define STICTION_CORPUS_RECORD_FIELDS_IPP_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -140,5 +139,3 @@ std::string ShapeOf(std::span<const ToldOf<R>> members) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_FIELDS_IPP_

@@ -17,8 +17,7 @@
 //   silent-wrong             or misses a condition of its law by more than the accuracy that it states
 //   refused-solvable         it gave up, and there is a solution
 
-#ifndef STICTION_CORPUS_RECORD_KINDS_H_
-#define STICTION_CORPUS_RECORD_KINDS_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -47,5 +46,3 @@ bool IsLoopKind(std::string_view kind);
 std::string KindOf(const std::string& signature);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_KINDS_H_

@@ -8,8 +8,7 @@
 // ray      In space the run comes to a step that nothing limits.
 // none     There is no certificate.
 
-#ifndef STICTION_CORPUS_RECORD_LOOP_SENTENCE_H_
-#define STICTION_CORPUS_RECORD_LOOP_SENTENCE_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -43,5 +42,3 @@ std::string LoopClause(const ProvedRun& run, std::string_view unit = "drive");
 std::string LoopSentence(const ProvedRun& run, std::string_view unit = "drive");
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_LOOP_SENTENCE_H_

@@ -13,8 +13,7 @@
 // is visible as a pair of entries. In place of A and b may stand `factors` (factors.h), of which both are
 // formed.
 
-#ifndef STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
-#define STICTION_CORPUS_RECORD_PROBLEM_FILE_H_
+#pragma once
 
 #include <climits>
 #include <map>
@@ -65,5 +64,3 @@ std::string Print(const ProblemFile& file);
 ExactProblem ProblemFromJson(const Json& json, const std::string& source, const std::string& path, bool strict);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_PROBLEM_FILE_H_

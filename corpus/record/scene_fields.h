@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields of scene files that the plane and space have of their own, or in words of their own.
 
-#ifndef STICTION_CORPUS_RECORD_SCENE_FIELDS_H_
-#define STICTION_CORPUS_RECORD_SCENE_FIELDS_H_
-
-#include <string>
-#include <vector>
+#pragma once
 
 #include "corpus/exact_number.h"
 #include "corpus/json_text.h"
@@ -115,5 +111,3 @@ template <class Kind>
 Json ShapeJson(const ShapeIn<Kind, Rational>& shape);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_SCENE_FIELDS_H_

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "corpus/json.h"
@@ -27,6 +26,14 @@ int ReadHeader(const JsonPlace& place, int least, int most) {
   return static_cast<int>(place.Required("dimension", dimension).Integer(least, most, dimension));
 }
 
+// read(place) of what may be missing.
+template <class Read>
+void TryKey(const JsonPlace& place, const char* key, Faults& faults, const Read& read) {
+  faults.Try([&] {
+    if (const auto given = place.Optional(key)) read(*given);
+  });
+}
+
 // Calls visit for each element of an array that may be missing.
 template <class Visit>
 void ForEachOf(const JsonPlace& place, const std::string& key, const Visit& visit) {
@@ -41,17 +48,13 @@ void ReadMass(const JsonPlace& place, bool has_shapes, BodyIn<Kind, Rational>& b
   const auto inertia = place.Optional("inertia");
   if (body.fixed) {
     for (const char* key : {"mass", "inertia", "force", "torque"}) {
-      const auto given = place.Optional(key);
-      faults.Try([&] {
-        if (given) given->Refuse(std::string("no ") + key + " of a fixed body");
-      });
+      TryKey(place, key, faults,
+             [&](const JsonPlace& given) { given.Refuse(std::string("no ") + key + " of a fixed body"); });
     }
     return;
   }
-  faults.Try([&] {
-    if (const auto given = place.Optional("acceleration"))
-      given->Refuse("no acceleration of a body that is not fixed");
-  });
+  TryKey(place, "acceleration", faults,
+         [](const JsonPlace& given) { given.Refuse("no acceleration of a body that is not fixed"); });
   Faults of_mass(place.source());
   of_mass.Try([&] { body.mass = Positive(place.Required("mass", "the mass, a number > 0")); });
   faults.Take(of_mass);
@@ -65,11 +68,7 @@ void ReadMass(const JsonPlace& place, bool has_shapes, BodyIn<Kind, Rational>& b
 
 template <class Kind>
 void ReadMotion(const JsonPlace& place, BodyIn<Kind, Rational>& body, Faults& faults) {
-  const auto try_key = [&](const char* key, const auto& read) {
-    faults.Try([&] {
-      if (const auto given = place.Optional(key)) read(*given);
-    });
-  };
+  const auto try_key = [&](const char* key, const auto& read) { TryKey(place, key, faults, read); };
   faults.Try([&] { ReadRotation(place, body.rotation); });
   try_key("position", [&](const JsonPlace& given) { body.position = ReadVector<Kind>(given); });
   try_key("velocity", [&](const JsonPlace& given) { body.velocity = ReadVector<Kind>(given); });
@@ -141,11 +140,7 @@ class SceneReader {
   }
 
   void Numbers(const JsonPlace& place, Faults& faults) {
-    const auto try_key = [&](const char* key, const auto& read) {
-      faults.Try([&] {
-        if (const auto given = place.Optional(key)) read(*given);
-      });
-    };
+    const auto try_key = [&](const char* key, const auto& read) { TryKey(place, key, faults, read); };
     faults.Try([&] { scene_.name = place.Required("name", "a string").Text("a string"); });
     scene_.gap = Rational(1, 1000);
     try_key("note", [&](const JsonPlace& given) { file_.note = given.Text("a string"); });

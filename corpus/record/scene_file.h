@@ -4,8 +4,7 @@
 // Numbers are those of problem files. A wrong file is an InputError with file, JSON path, what was found and
 // what was expected.
 
-#ifndef STICTION_CORPUS_RECORD_SCENE_FILE_H_
-#define STICTION_CORPUS_RECORD_SCENE_FILE_H_
+#pragma once
 
 #include <filesystem>
 #include <string>
@@ -44,5 +43,3 @@ template <class Kind>
 std::string Print(const SceneFileIn<Kind>& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_SCENE_FILE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The contact problems of a scene as problem files, for `assemble` and for Python.
 
-#ifndef STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_
-#define STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -42,5 +41,3 @@ std::vector<ProblemFile> ProblemsOf(const SceneFileIn<Kind>& file, const ModelIn
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_SCENE_PROBLEMS_H_

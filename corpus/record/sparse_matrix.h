@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SparseMatrix: exact numbers by row and column, and how files list them.
 
-#ifndef STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
-#define STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_
+#pragma once
 
 #include <Eigen/SparseCore>
 #include <map>
@@ -27,5 +26,3 @@ inline constexpr int kMostDenseRows = 4000;
 SparseMatrix ReadEntries(const JsonPlace& place, int rows, int columns, bool strict = false);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_SPARSE_MATRIX_H_

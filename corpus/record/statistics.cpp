@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <vector>
 
 #include "corpus/json.h"
 
@@ -24,14 +22,6 @@ Json Trimmed(const Array& values) {
   std::size_t size = values.size();
   while (size > 0 && values[size - 1] == 0) --size;
   return Json(std::vector<std::int64_t>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size)));
-}
-
-template <class Tally>
-void AddCounters(Tally& sums, const Tally& tally) {
-  std::vector<std::int64_t> theirs;
-  ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
-  auto next = theirs.begin();
-  ForEachCounter(sums, [&next](const char*, std::int64_t& mine) { mine += *next++; });
 }
 
 template <class Tally>
@@ -63,6 +53,14 @@ Json ToJson(const StratumKey& key, const Stratum& stratum) {
 }
 
 }  // namespace
+
+Json ToJson(const TallyKey& key) {
+  return {{"generator", key.generator},
+          {"contacts", key.contacts},
+          {"policy", key.policy},
+          {"method", key.method},
+          {"arithmetic", key.arithmetic}};
+}
 
 void Stratum::Merge(const Stratum& other) {
   problems += other.problems;
@@ -147,11 +145,7 @@ void Record::Merge(const Record& other) {
 std::string Serialize(const Record& record) {
   Json tallies = Json::array();
   for (const auto& [key, tally] : record.tallies) {
-    Json json = {{"generator", key.generator},
-                 {"contacts", key.contacts},
-                 {"policy", key.policy},
-                 {"method", key.method},
-                 {"arithmetic", key.arithmetic}};
+    Json json = ToJson(key);
     json.update(ToJson(tally));
     tallies.push_back(std::move(json));
   }

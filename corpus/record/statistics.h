@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics of a campaign: counters that merge by addition, in any order.
 
-#ifndef STICTION_CORPUS_RECORD_STATISTICS_H_
-#define STICTION_CORPUS_RECORD_STATISTICS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -29,6 +28,8 @@ struct TallyKey {
 
   auto operator<=>(const TallyKey&) const = default;
 };
+
+Json ToJson(const TallyKey& key);
 
 // visit(mine, theirs) for every counter of two statistics.
 template <class Visit>
@@ -264,6 +265,14 @@ void ForEachCounter(Tally&& tally, Visit visit) {
   visit(kNotInOlderRecords, tally.neither);
 }
 
+template <class Tally>
+void AddCounters(Tally& sums, const Tally& tally) {
+  std::vector<std::int64_t> theirs;
+  ForEachCounter(tally, [&theirs](const char*, std::int64_t value) { theirs.push_back(value); });
+  auto next = theirs.begin();
+  ForEachCounter(sums, [&next](const char*, std::int64_t& mine) { mine += *next++; });
+}
+
 // All that a unit, a block or a whole campaign counts.
 struct Record {
   std::map<TallyKey, Tally> tallies;
@@ -289,5 +298,3 @@ std::string Serialize(const Record& record);
 Record ParseRecord(const std::string& text, const std::string& source = "record");
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_STATISTICS_H_

@@ -2,8 +2,7 @@
 // Work: the processor time that a part of a campaign took, the builds that did it, and the machines. Outcomes
 // are the same wherever a unit runs, work is not: nothing of it is ever compared.
 
-#ifndef STICTION_CORPUS_RECORD_WORK_H_
-#define STICTION_CORPUS_RECORD_WORK_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -76,5 +75,3 @@ struct Work {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_RECORD_WORK_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said of one finding, in every medium alike: what is proved of its run, and how to see it again.
 
-#ifndef STICTION_CORPUS_STORE_FINDING_WORDS_H_
-#define STICTION_CORPUS_STORE_FINDING_WORDS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -33,5 +32,3 @@ std::string SentenceOf(const Finding& finding);
 std::string ReplayOptionsOf(const Finding& finding);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STORE_FINDING_WORDS_H_

@@ -11,8 +11,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
-#include <map>
-#include <utility>
 
 #include "corpus/atomic_file.h"
 #include "corpus/descriptor.h"
@@ -144,6 +142,30 @@ void RefuseForeignDatabase(sqlite3* db, const fs::path& file) {
     throw InputError(fmt::format(
         "{}: found another database, expected a store: a file that stiction search writes", file.string()));
   }
+}
+
+// Where the work of a unit is kept; empty if the store does not hold it.
+std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
+  Statement open(db, "SELECT shards, shard FROM units WHERE unit = ?");
+  if (open.Bind(unit).Step()) {
+    const Shard shard = ReadShard(open);
+    return WorkKey{shard, BlockOf(shard, unit), unit};
+  }
+  Statement shards(db, "SELECT DISTINCT shards, shard FROM blocks");
+  while (shards.Step()) {
+    const Shard shard = ReadShard(shards);
+    if (shard.Owns(unit) && HoldsBlock(db, shard, BlockOf(shard, unit)))
+      return WorkKey{shard, BlockOf(shard, unit)};
+  }
+  return std::nullopt;
+}
+
+void AddWorkTo(sqlite3* db, std::int64_t unit, const Work& work) {
+  const auto key = WorkKeyOf(db, unit);
+  if (!key || work == Work{}) return;
+  Work sum = ReadWork(db, *key);
+  sum.Add(work);
+  WriteWork(db, *key, sum);
 }
 
 }  // namespace
@@ -466,34 +488,6 @@ void Store::CloseBlockIfComplete(const Shard& shard, std::int64_t block) {
   PutRow(db_.get(), "blocks", {std::int64_t{shard.count}, std::int64_t{shard.index}, block, Serialize(sum)});
   WriteWork(db_.get(), {shard, block}, work);
 }
-
-namespace {
-
-// Where the work of a unit is kept; empty if the store does not hold it.
-std::optional<WorkKey> WorkKeyOf(sqlite3* db, std::int64_t unit) {
-  Statement open(db, "SELECT shards, shard FROM units WHERE unit = ?");
-  if (open.Bind(unit).Step()) {
-    const Shard shard = ReadShard(open);
-    return WorkKey{shard, BlockOf(shard, unit), unit};
-  }
-  Statement shards(db, "SELECT DISTINCT shards, shard FROM blocks");
-  while (shards.Step()) {
-    const Shard shard = ReadShard(shards);
-    if (shard.Owns(unit) && HoldsBlock(db, shard, BlockOf(shard, unit)))
-      return WorkKey{shard, BlockOf(shard, unit)};
-  }
-  return std::nullopt;
-}
-
-void AddWorkTo(sqlite3* db, std::int64_t unit, const Work& work) {
-  const auto key = WorkKeyOf(db, unit);
-  if (!key || work == Work{}) return;
-  Work sum = ReadWork(db, *key);
-  sum.Add(work);
-  WriteWork(db, *key, sum);
-}
-
-}  // namespace
 
 void Store::Finish(const Finding& finding, const Work& work) {
   Transaction transaction(db_.get());

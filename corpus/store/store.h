@@ -16,14 +16,12 @@
 // whatever the number of threads and interruptions. Every Add is one transaction: a killed process loses the
 // unit that it was working on and nothing else.
 
-#ifndef STICTION_CORPUS_STORE_STORE_H_
-#define STICTION_CORPUS_STORE_STORE_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -204,5 +202,3 @@ class Store {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STORE_STORE_H_

@@ -6,8 +6,7 @@
 // line whose process is gone, however it went, counts for nothing. The first byte of the file is locked by
 // whoever reads or adds lines. The last process removes the file.
 
-#ifndef STICTION_CORPUS_STORE_STORE_LOCK_H_
-#define STICTION_CORPUS_STORE_STORE_LOCK_H_
+#pragma once
 
 #include <filesystem>
 
@@ -39,5 +38,3 @@ class StoreLock {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STORE_STORE_LOCK_H_

@@ -5,13 +5,11 @@
 // the length in bytes, integers in decimal. It says that the row is as it was written, no more: rows that are
 // gone leave no trace but the units that are missing.
 
-#ifndef STICTION_CORPUS_STORE_STORE_ROWS_H_
-#define STICTION_CORPUS_STORE_STORE_ROWS_H_
+#pragma once
 
 #include <sqlite3.h>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -124,5 +122,3 @@ inline constexpr const char* kUnitsOfBlock =
 [[noreturn]] void RefuseDatabase(sqlite3* db);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STORE_STORE_ROWS_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a store holds, summed up once for all who speak of it: summaries, texts, pages.
 
-#ifndef STICTION_CORPUS_STORE_STORE_TOTALS_H_
-#define STICTION_CORPUS_STORE_STORE_TOTALS_H_
+#pragma once
 
 #include <cstdint>
 #include <map>
@@ -58,5 +57,3 @@ std::string TimeText(const ProcessorTime& time);
 std::string FinishCommand(const std::string& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_CORPUS_STORE_STORE_TOTALS_H_

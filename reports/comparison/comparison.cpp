@@ -334,18 +334,11 @@ Table ComparisonTable(const Comparison& comparison) {
 }
 
 Json ComparisonToJson(const Comparison& comparison) {
-  const auto key_of = [](const TallyKey& key) {
-    return Json{{"generator", key.generator},
-                {"contacts", key.contacts},
-                {"policy", key.policy},
-                {"method", key.method},
-                {"arithmetic", key.arithmetic}};
-  };
   const auto trials = [](const Ratio& trials) { return Json{{"count", trials.count}, {"of", trials.of}}; };
   const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
   Json rates = Json::array(), only_a = Json::array(), only_b = Json::array();
   for (const ComparedRate& rate : comparison.rates) {
-    Json row = key_of(rate.key);
+    Json row = ToJson(rate.key);
     row.update({{"friction", rate.friction},
                 {"measure", rate.measure},
                 {"a", trials(rate.a)},
@@ -355,8 +348,8 @@ Json ComparisonToJson(const Comparison& comparison) {
                 {"more_than_noise", rate.MoreThanNoise()}});
     rates.push_back(std::move(row));
   }
-  for (const TallyKey& key : comparison.only_a) only_a.push_back(key_of(key));
-  for (const TallyKey& key : comparison.only_b) only_b.push_back(key_of(key));
+  for (const TallyKey& key : comparison.only_a) only_a.push_back(ToJson(key));
+  for (const TallyKey& key : comparison.only_b) only_b.push_back(ToJson(key));
   return {{"differences", comparison.differences},
           {"tests", comparison.tests},
           {"rates", rates},

@@ -7,8 +7,7 @@
 // Statistics, 1950: exact, too, given the pooled steps); all are corrected together (Holm). They take problems
 // for independent draws.
 
-#ifndef STICTION_REPORTS_COMPARISON_COMPARISON_H_
-#define STICTION_REPORTS_COMPARISON_COMPARISON_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -80,5 +79,3 @@ std::filesystem::path WriteComparison(const Comparison& comparison, const std::s
                                       Occupied occupied = Occupied::kRefused);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_COMPARISON_COMPARISON_H_

@@ -5,7 +5,7 @@
 
 #include "corpus/json.h"
 #include "reports/comparison_template.h"
-#include "reports/html/template.h"
+#include "reports/html/html.h"
 #include "reports/page/sections.h"
 
 namespace stiction {

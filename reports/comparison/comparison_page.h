@@ -2,8 +2,7 @@
 // Campaigns, or solvers under test, side by side, as one page that needs nothing else: what is told for a
 // `page`.
 
-#ifndef STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_
-#define STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -17,5 +16,3 @@ std::string ComparisonPage(const char* title, const char* question, const Told& 
                            const std::vector<Table>& figures = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_COMPARISON_COMPARISON_PAGE_H_

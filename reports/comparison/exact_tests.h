@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact tests: whether two counts differ by more than noise.
 
-#ifndef STICTION_REPORTS_COMPARISON_EXACT_TESTS_H_
-#define STICTION_REPORTS_COMPARISON_EXACT_TESTS_H_
+#pragma once
 
 #include <vector>
 
@@ -28,5 +27,3 @@ double FisherTest(const Ratio& a, const Ratio& b);
 std::vector<double> Holm(const std::vector<double>& p);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_COMPARISON_EXACT_TESTS_H_

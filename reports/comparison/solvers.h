@@ -2,8 +2,7 @@
 // Solvers under test side by side: what their searches counted, by families of problems, and the smallest
 // problem of each kind of failure. Searches of one seed and definition gave them the same problems.
 
-#ifndef STICTION_REPORTS_COMPARISON_SOLVERS_H_
-#define STICTION_REPORTS_COMPARISON_SOLVERS_H_
+#pragma once
 
 #include <filesystem>
 #include <string>
@@ -36,5 +35,3 @@ std::filesystem::path WriteSolvers(const SolversCompared& compared, const std::f
                                    Occupied occupied = Occupied::kRefused);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_COMPARISON_SOLVERS_H_

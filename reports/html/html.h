@@ -2,15 +2,14 @@
 // HTML and SVG, escaped by construction: whatever does not come from our own source text becomes Html only
 // through Text(), an attribute's value or ScriptData(), and all of them escape.
 
-#ifndef STICTION_REPORTS_HTML_HTML_H_
-#define STICTION_REPORTS_HTML_HTML_H_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "corpus/grouped.h"
 
@@ -70,6 +69,9 @@ std::string Significant(double x, int digits = 5);
 // Sum per count, in two or three digits; "" of nothing.
 std::string Mean(std::int64_t sum, std::int64_t count);
 
-}  // namespace stiction
+// ---- Pages that the build has joined (web/join.py), and that the program fills ----
 
-#endif  // STICTION_REPORTS_HTML_HTML_H_
+// The page with each mark, {{NAME}}, replaced. InternalError if one does not stand there exactly once.
+std::string FilledTemplate(std::string_view page, const std::map<std::string, Html>& marks);
+
+}  // namespace stiction

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes as text that a page can carry.
 
-#ifndef STICTION_REPORTS_HTML_PACKED_H_
-#define STICTION_REPORTS_HTML_PACKED_H_
+#pragma once
 
 #include <string>
 
@@ -12,5 +11,3 @@ namespace stiction {
 std::string Packed(const std::string& plain);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_HTML_PACKED_H_

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "corpus/grouped.h"
 #include "corpus/rational.h"
 
 namespace stiction {

@@ -2,8 +2,7 @@
 // The worst problems that are known, beside what random problems reached: what the page says of them, and
 // frontiers.csv.
 
-#ifndef STICTION_REPORTS_PAGE_FRONTIERS_H_
-#define STICTION_REPORTS_PAGE_FRONTIERS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -43,5 +42,3 @@ Table FrontiersFigure(const std::vector<FrontierLine>& lines);
 void AddFrontiers(Facts& facts, const std::vector<FrontierLine>& lines, const std::vector<OwnBest>& own);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAGE_FRONTIERS_H_

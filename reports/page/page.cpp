@@ -9,8 +9,8 @@
 #include "corpus/grouped.h"
 #include "corpus/json.h"
 #include "reports/findings_template.h"
+#include "reports/html/html.h"
 #include "reports/html/packed.h"
-#include "reports/html/template.h"
 #include "reports/page/sections.h"
 #include "reports/report_template.h"
 

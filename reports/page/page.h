@@ -3,8 +3,7 @@
 // that was counted; the findings, which are read when they are asked for. They render what told/report.txt
 // says, as text; scripts draw the figures, play a loop and make the findings sortable (web/).
 
-#ifndef STICTION_REPORTS_PAGE_PAGE_H_
-#define STICTION_REPORTS_PAGE_PAGE_H_
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -74,5 +73,3 @@ Html FindingsRows(const std::vector<Discovery>& discoveries, const std::optional
 Html FindingDetails(const Discovery& discovery);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAGE_PAGE_H_

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "corpus/input_error.h"
-#include "corpus/input_file.h"
 #include "corpus/order_statistics.h"
 #include "reports/tables/discovery.h"
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measurements of rungs (bench --suite trade or extremes, --csv) in a report: a figure and a table.
 
-#ifndef STICTION_REPORTS_PAGE_RUNGS_H_
-#define STICTION_REPORTS_PAGE_RUNGS_H_
+#pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,5 +30,3 @@ void AddRungs(Facts& facts, const std::vector<RungLine>& lines);
 std::string BenchName(const std::filesystem::path& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAGE_RUNGS_H_

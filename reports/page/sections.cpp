@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "corpus/json.h"
-#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

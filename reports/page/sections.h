@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is told (told/told.h), as HTML.
 
-#ifndef STICTION_REPORTS_PAGE_SECTIONS_H_
-#define STICTION_REPORTS_PAGE_SECTIONS_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -28,5 +27,3 @@ Html LinksTo(const Told& told, const std::string& medium, const std::string& pag
 Json FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAGE_SECTIONS_H_

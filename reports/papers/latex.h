@@ -12,8 +12,7 @@
 // Tables have their numbers in them, since LaTeX cannot read the CSV files of a report: pgfplotstable takes the
 // commas of a policy for columns, quoted or not, and % for a comment, and it would round intervals inward.
 
-#ifndef STICTION_REPORTS_PAPERS_LATEX_H_
-#define STICTION_REPORTS_PAPERS_LATEX_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -29,5 +28,3 @@ std::map<std::string, std::string> LatexFiles(const Store& store);
 std::string Citation(const Store& store);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAPERS_LATEX_H_

@@ -10,7 +10,6 @@
 #include "corpus/record/problem_file.h"
 #include "reports/papers/package/README_txt.h"
 #include "reports/papers/package/verify_py.h"
-#include "reports/report_files.h"
 #include "reports/tables/campaign_tables.h"
 
 namespace stiction {

@@ -8,8 +8,7 @@
 //   tables/                 as in a report: what was counted
 //   SHA256SUMS              of every file but itself
 
-#ifndef STICTION_REPORTS_PAPERS_PACKAGE_H_
-#define STICTION_REPORTS_PAPERS_PACKAGE_H_
+#pragma once
 
 #include <filesystem>
 #include <map>
@@ -28,5 +27,3 @@ std::filesystem::path WritePackage(const Store& store, const std::filesystem::pa
                                    Occupied occupied = Occupied::kRefused, const ShowWriting& show = {});
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PAPERS_PACKAGE_H_

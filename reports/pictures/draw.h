@@ -6,8 +6,7 @@
 // arrow that would be longer than a quarter of the picture's height is dashed and that long. Space is seen from
 // one direction, without perspective.
 
-#ifndef STICTION_REPORTS_PICTURES_DRAW_H_
-#define STICTION_REPORTS_PICTURES_DRAW_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -100,5 +99,3 @@ Html DrawInline(const SceneIn<Kind, double>& scene, const View& view, const Mark
                 const std::string& label);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_DRAW_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What drawing bodies in the plane and in space have in common, and what each brings.
 
-#ifndef STICTION_REPORTS_PICTURES_DRAW_BODIES_H_
-#define STICTION_REPORTS_PICTURES_DRAW_BODIES_H_
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -78,5 +77,3 @@ Html Placed(const Scene<double>& scene, const Screen& screen);
 Html Placed(const SceneInSpace<double>& scene, const Screen& screen);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_DRAW_BODIES_H_

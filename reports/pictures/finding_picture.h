@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene of a finding, where it was found with one.
 
-#ifndef STICTION_REPORTS_PICTURES_FINDING_PICTURE_H_
-#define STICTION_REPORTS_PICTURES_FINDING_PICTURE_H_
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ Html PictureOfFinding(const Finding& finding);
 std::string SvgOfFinding(const Finding& finding);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_FINDING_PICTURE_H_

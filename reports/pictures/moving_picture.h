@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture that moves: forces of a scene, one still after another, again and again.
 
-#ifndef STICTION_REPORTS_PICTURES_MOVING_PICTURE_H_
-#define STICTION_REPORTS_PICTURES_MOVING_PICTURE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ std::string MovingPicture(const Json& picture, const std::string& title, const s
                           double seconds);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_MOVING_PICTURE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene of a problem as a picture, in which a page draws the forces itself, step by step.
 
-#ifndef STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
-#define STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -28,5 +27,3 @@ Json PictureOfProblem(const SceneIn<Kind, double>& scene,
 SharedJson PictureBeside(const ProblemFile& file, const std::string& source);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_PROBLEM_PICTURE_H_

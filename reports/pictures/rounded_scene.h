@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene of a file over doubles, for pictures and simulations.
 
-#ifndef STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_
-#define STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -81,5 +80,3 @@ double SecondsOf(const SceneFileIn<Kind>& file, const std::string& source) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_PICTURES_ROUNDED_SCENE_H_

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <numeric>
 
 #include "corpus/intervals.h"

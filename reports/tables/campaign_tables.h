@@ -2,8 +2,7 @@
 // The tables of a campaign, each defined once, whatever medium shows it. A new one is a function there, with
 // its columns in tables.txt.
 
-#ifndef STICTION_REPORTS_TABLES_CAMPAIGN_TABLES_H_
-#define STICTION_REPORTS_TABLES_CAMPAIGN_TABLES_H_
+#pragma once
 
 #include <functional>
 #include <map>
@@ -36,5 +35,3 @@ using TablesMaker = std::function<std::vector<Table>()>;
 std::map<std::string, TablesMaker> ShownTables(const Record& record);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_CAMPAIGN_TABLES_H_

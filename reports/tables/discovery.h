@@ -2,8 +2,7 @@
 // Discovery: one signature of a campaign, as a report speaks of it. A finding of the store with how often its
 // signature was met, and what its facts say in numbers.
 
-#ifndef STICTION_REPORTS_TABLES_DISCOVERY_H_
-#define STICTION_REPORTS_TABLES_DISCOVERY_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -98,5 +97,3 @@ std::vector<const Discovery*> ByInterest(const std::vector<Discovery>& discoveri
 std::string FileName(const std::string& signature);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_DISCOVERY_H_

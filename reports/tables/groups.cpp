@@ -30,6 +30,15 @@ struct InOrder {
   }
 };
 
+// The least number of steps that a share of the runs do not exceed.
+int StepsWithin(const Tally& tally, double share) {
+  std::int64_t below = 0;
+  int steps = 0;
+  const auto wanted = share * static_cast<double>(tally.problems);
+  while (steps < Tally::kBins - 1 && static_cast<double>(below += tally.steps[steps]) < wanted) ++steps;
+  return steps;
+}
+
 }  // namespace
 
 std::vector<Group> GroupsBy(const Record& record, const By& by) {
@@ -56,19 +65,6 @@ std::vector<Group> GroupsBy(const Record& record, const By& by) {
   }
   return sorted;
 }
-
-namespace {
-
-// The least number of steps that a share of the runs do not exceed.
-int StepsWithin(const Tally& tally, double share) {
-  std::int64_t below = 0;
-  int steps = 0;
-  const auto wanted = share * static_cast<double>(tally.problems);
-  while (steps < Tally::kBins - 1 && static_cast<double>(below += tally.steps[steps]) < wanted) ++steps;
-  return steps;
-}
-
-}  // namespace
 
 Numbers NumbersOf(const Group& group) {
   const Counts& c = group.counts;

@@ -2,8 +2,7 @@
 // Group-by: what a store has counted, by generator, contacts, policy, method, arithmetic, and by friction and
 // rank. Whoever tells numbers of runs by something groups them here.
 
-#ifndef STICTION_REPORTS_TABLES_GROUPS_H_
-#define STICTION_REPORTS_TABLES_GROUPS_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -50,5 +49,3 @@ Table Keyed(const std::string& name, const std::string& caption, const By& by,
 std::vector<TableCell> Behind(const Group& group, const std::vector<TableCell>& more);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_GROUPS_H_

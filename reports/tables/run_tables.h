@@ -5,8 +5,7 @@
 // row, with the columns of the CSV in their order. Numbers are the shortest that read back to the same double,
 // in both; one that is not finite is a text. columns.csv says of every column its unit and what it means.
 
-#ifndef STICTION_REPORTS_TABLES_RUN_TABLES_H_
-#define STICTION_REPORTS_TABLES_RUN_TABLES_H_
+#pragma once
 
 #include <filesystem>
 #include <memory>
@@ -53,5 +52,3 @@ template <class Kind>
 Json MotionsToJson(const SceneIn<Kind, double>& scene, const std::vector<BodyMotion>& motions);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_RUN_TABLES_H_

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "corpus/input_error.h"
-#include "corpus/input_file.h"
 
 namespace stiction {
 std::string_view StateOf(const Discovery& discovery) {

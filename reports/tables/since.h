@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is new since an earlier report, of which findings.csv is read.
 
-#ifndef STICTION_REPORTS_TABLES_SINCE_H_
-#define STICTION_REPORTS_TABLES_SINCE_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -38,5 +37,3 @@ std::string_view StateOf(const Discovery& discovery);
 Table SinceTable(const Since& since, const std::vector<Discovery>& discoveries);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_SINCE_H_

@@ -5,11 +5,9 @@
 //   ToCsv, ToJson   data: integers as they are, a ratio as its counts, its value and its interval
 //   ToText, ToHtml, ToLatex   for people: thousands apart, a ratio in few digits with its interval
 
-#ifndef STICTION_REPORTS_TABLES_TABLE_H_
-#define STICTION_REPORTS_TABLES_TABLE_H_
+#pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -163,5 +161,3 @@ class CsvReader {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TABLES_TABLE_H_

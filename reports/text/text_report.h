@@ -2,8 +2,7 @@
 // What a store says, as plain text of at most 100 columns: what matters most first, in words that need no
 // glossary. The end of a search and `report --text` say it with the same sentences.
 
-#ifndef STICTION_REPORTS_TEXT_TEXT_REPORT_H_
-#define STICTION_REPORTS_TEXT_TEXT_REPORT_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -32,5 +31,3 @@ std::string TextReport(const Store& store, const std::string& file, const KnownC
                        Extent extent = Extent::kAll);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TEXT_TEXT_REPORT_H_

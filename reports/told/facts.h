@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a store holds as facts for told.h: a number has the name that report.txt says it by.
 
-#ifndef STICTION_REPORTS_TOLD_FACTS_H_
-#define STICTION_REPORTS_TOLD_FACTS_H_
+#pragma once
 
 #include "corpus/store/store_totals.h"
 #include "reports/told/told.h"
@@ -13,5 +12,3 @@ namespace stiction {
 Facts FactsOf(const StoreTotals& totals, const CampaignIdentity& identity);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TOLD_FACTS_H_

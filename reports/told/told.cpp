@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/told/told.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <regex>
 

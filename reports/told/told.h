@@ -21,10 +21,8 @@
 // @name?text|other@ as in corpus/text_template.h: a name holds that is not 0, and not empty. Lines and marks
 // are those of the file: what fills a place is text.
 
-#ifndef STICTION_REPORTS_TOLD_TOLD_H_
-#define STICTION_REPORTS_TOLD_TOLD_H_
+#pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
@@ -80,5 +78,3 @@ SharedJson ToJson(const Told& told);
 std::string ToText(const Told& told, const std::string& medium);
 
 }  // namespace stiction
-
-#endif  // STICTION_REPORTS_TOLD_TOLD_H_

@@ -5,7 +5,7 @@ FILE depends on what it was made of, as a Makefile does.
 
 A module becomes a scope within the script, after those that it imports; README.md has the forms that are understood.
 Filled in are {{script}}, {{style}}, {{policy}}, {{notices}}, {{solver}}, {{commit}} and \\( TeX \\); other marks, {{title}},
-{{data}} and such, are left to the program (reports/html/template.h)."""
+{{data}} and such, are left to the program (reports/html/html.h)."""
 
 import base64
 import hashlib

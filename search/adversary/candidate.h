@@ -4,8 +4,7 @@
 // Any sequence of integers is a problem that meets the paper's hypotheses exactly (choices.h), and where the
 // generator makes scenes, one that can be built. So optimizers change integers, and whatever they do is valid.
 
-#ifndef STICTION_SEARCH_ADVERSARY_CANDIDATE_H_
-#define STICTION_SEARCH_ADVERSARY_CANDIDATE_H_
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -52,5 +51,3 @@ MuChoice Lowered(const MuChoice& mu, int k, int most_part);
 MuChoice SimplestNear(const Rational& mu, const MuChoice& otherwise, int most_part);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_CANDIDATE_H_

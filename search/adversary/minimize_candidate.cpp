@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <tuple>
-
-#include "corpus/input_error.h"
 
 namespace stiction {
 namespace {

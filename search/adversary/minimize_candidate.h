@@ -6,8 +6,7 @@
 // this order: fewer contacts; fewer choices, which are fewer bodies and corners; fewer significant digits of
 // all choices; a smaller sum of their sizes. Passes run until none makes progress. Deterministic; no clock.
 
-#ifndef STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
-#define STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_
+#pragma once
 
 #include <functional>
 
@@ -28,5 +27,3 @@ MinimizedCandidate MinimizeCandidate(
     const std::function<bool()>& cancelled = [] { return false; });
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_MINIMIZE_CANDIDATE_H_

@@ -4,8 +4,7 @@
 // A new one is a row of the table in objective.cpp. Optimizers exploit tolerances, so a value over doubles is
 // only ever a reason to look again: it is the one over rationals that counts (optimizer.h).
 
-#ifndef STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_
-#define STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_
+#pragma once
 
 #include <optional>
 #include <span>
@@ -43,5 +42,3 @@ std::span<const Objective> Objectives();
 const Objective* FindObjective(std::string_view name);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_OBJECTIVE_H_

@@ -12,7 +12,6 @@
 #include "search/adversary/parents.h"
 #include "search/units/regenerate.h"
 #include "search/units/signature.h"
-#include "solver/problem/check.h"
 
 namespace stiction {
 namespace {

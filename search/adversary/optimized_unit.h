@@ -5,8 +5,7 @@
 // of smaller sizes of its generator (parents.h). So all units of an epoch can run at once, and nothing but the
 // campaign and the shard decides what comes out.
 
-#ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZED_UNIT_H_
-#define STICTION_SEARCH_ADVERSARY_OPTIMIZED_UNIT_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -57,5 +56,3 @@ UnitResult RunOptimizedUnit(
 std::vector<Elite> BestOf(const Store& store, std::size_t most);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_OPTIMIZED_UNIT_H_

@@ -4,8 +4,7 @@
 // libraries compute the same: objectives and NLopt take logarithms, roots and eigenvalues from them, and
 // `ipopt` is Ipopt's.
 
-#ifndef STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
-#define STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -136,5 +135,3 @@ Optimized Continue(const Optimization& optimization);
 std::vector<std::size_t> WideChoices(const std::vector<Choice>& made);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_OPTIMIZER_H_

@@ -117,6 +117,33 @@ std::vector<Candidate> AllOfFolder(const std::string& source) {
   return all;
 }
 
+// The largest, of a problem that NearPsd takes.
+MuChoice FrictionForPsd(const ExactProblem& problem, const std::string& source) {
+  const auto refuse = [&source](const std::string& found) {
+    throw InputError(
+        fmt::format("{}: found {}, expected a planar problem of 1 to {} static contacts: this is what "
+                    "a search can start from without choices in its origin",
+                    source, found, kMaxContacts));
+  };
+  if (problem.dimension != 2) refuse("a problem in space");
+  if (problem.contacts.empty() || problem.contacts.size() > kMaxContacts)
+    refuse(fmt::format("{} contacts", problem.contacts.size()));
+  Rational mu = 0;
+  for (const Contact<Rational>& contact : problem.contacts) {
+    if (contact.kind != ContactKind::kStatic) refuse(fmt::format("a contact that is {}", Name(contact.kind)));
+    mu = std::max<Rational>(mu, contact.mu);
+  }
+  const int most = LargestMuPart(GeneratorId::kPsd);
+  if (mu.get_num() > most || mu.get_den() > most) refuse(fmt::format("friction coefficient {}", ToString(mu)));
+  return {static_cast<int>(mu.get_num().get_si()), static_cast<int>(mu.get_den().get_si())};
+}
+
+// A number as a multiple of 2^-bits in [-1, 1).
+std::int64_t AsMultiple(double x, int bits) {
+  const std::int64_t one = std::int64_t{1} << bits;
+  return std::clamp<std::int64_t>(std::llround(std::ldexp(x, bits)), -one, one - 1);
+}
+
 }  // namespace
 
 std::vector<Candidate> ParentsFrom(const std::string& source, const Campaign& campaign) {
@@ -213,37 +240,6 @@ Candidate CandidateOf(const Campaign& campaign, std::int64_t unit, std::int64_t 
     candidate.choices.push_back(made[i].value);
   return candidate;
 }
-
-namespace {
-
-// The largest, of a problem that NearPsd takes.
-MuChoice FrictionForPsd(const ExactProblem& problem, const std::string& source) {
-  const auto refuse = [&source](const std::string& found) {
-    throw InputError(
-        fmt::format("{}: found {}, expected a planar problem of 1 to {} static contacts: this is what "
-                    "a search can start from without choices in its origin",
-                    source, found, kMaxContacts));
-  };
-  if (problem.dimension != 2) refuse("a problem in space");
-  if (problem.contacts.empty() || problem.contacts.size() > kMaxContacts)
-    refuse(fmt::format("{} contacts", problem.contacts.size()));
-  Rational mu = 0;
-  for (const Contact<Rational>& contact : problem.contacts) {
-    if (contact.kind != ContactKind::kStatic) refuse(fmt::format("a contact that is {}", Name(contact.kind)));
-    mu = std::max<Rational>(mu, contact.mu);
-  }
-  const int most = LargestMuPart(GeneratorId::kPsd);
-  if (mu.get_num() > most || mu.get_den() > most) refuse(fmt::format("friction coefficient {}", ToString(mu)));
-  return {static_cast<int>(mu.get_num().get_si()), static_cast<int>(mu.get_den().get_si())};
-}
-
-// A number as a multiple of 2^-bits in [-1, 1).
-std::int64_t AsMultiple(double x, int bits) {
-  const std::int64_t one = std::int64_t{1} << bits;
-  return std::clamp<std::int64_t>(std::llround(std::ldexp(x, bits)), -one, one - 1);
-}
-
-}  // namespace
 
 Candidate NearPsd(const ExactProblem& exact, const std::string& source) {
   Candidate candidate{

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parents: candidates that an optimizer starts from, out of problems of any origin and of smaller size.
 
-#ifndef STICTION_SEARCH_ADVERSARY_PARENTS_H_
-#define STICTION_SEARCH_ADVERSARY_PARENTS_H_
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -50,5 +49,3 @@ Candidate CandidateOf(const Campaign& campaign, std::int64_t unit, std::int64_t 
 Candidate NearPsd(const ExactProblem& problem, const std::string& source);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_PARENTS_H_

@@ -9,11 +9,9 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
-#include "certify/exact/exact.h"
 #include "certify/exact/properties.h"
 #include "corpus/json.h"
 #include "corpus/record/digest.h"
-#include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
 

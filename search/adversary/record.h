@@ -12,8 +12,7 @@
 //   random   the best of random problems, of how many, and what drew them: {"value" (null: nothing),
 //            "evaluations", "command"}
 
-#ifndef STICTION_SEARCH_ADVERSARY_RECORD_H_
-#define STICTION_SEARCH_ADVERSARY_RECORD_H_
+#pragma once
 
 #include <filesystem>
 #include <optional>
@@ -59,5 +58,3 @@ FrontierRecord MakeRecord(const Objective& objective, const ProblemFile& problem
 std::string FaultOf(const FrontierRecord& record, const Limits& limits);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_RECORD_H_

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/exact/exact.h"
-
 namespace stiction {
 namespace {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trial: one problem and what the methods make of it, each run once, when it is first asked for.
 
-#ifndef STICTION_SEARCH_ADVERSARY_TRIAL_H_
-#define STICTION_SEARCH_ADVERSARY_TRIAL_H_
+#pragma once
 
 #include <optional>
 
@@ -104,5 +103,3 @@ std::int64_t LongestNumber(ExactTrial& trial);
 std::optional<double> Condition(const ContactProblem<double>& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_ADVERSARY_TRIAL_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems of planar rigid bodies at rest, which several generators share: A = J M^-1 J', b = J M^-1 F.
 
-#ifndef STICTION_SEARCH_GENERATORS_BODY_PROBLEM_H_
-#define STICTION_SEARCH_GENERATORS_BODY_PROBLEM_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -76,5 +75,3 @@ void SetSceneRows(const Vector2<Scalar>& normal, const Vector2<Scalar>& arm, int
 }
 
 }  // namespace stiction::generators
-
-#endif  // STICTION_SEARCH_GENERATORS_BODY_PROBLEM_H_

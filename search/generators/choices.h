@@ -11,8 +11,7 @@
 //             base that is asked for; after digits of ranges r1, r2, ... a value's probability is off by
 //             at most r1 r2 ... / 2^64.
 
-#ifndef STICTION_SEARCH_GENERATORS_CHOICES_H_
-#define STICTION_SEARCH_GENERATORS_CHOICES_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -150,5 +149,3 @@ class Choices {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_GENERATORS_CHOICES_H_

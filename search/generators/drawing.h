@@ -8,8 +8,7 @@
 //   r <= 24 rows, c <= 24 columns (the plane: 16); abs(J) <= p, abs(x) <= q, abs(y) <= q:
 //   abs(A) <= c p^2,  abs(J y) <= c p q,  abs(A x) <= r c p^2 q
 
-#ifndef STICTION_SEARCH_GENERATORS_DRAWING_H_
-#define STICTION_SEARCH_GENERATORS_DRAWING_H_
+#pragma once
 
 #include <array>
 #include <span>
@@ -144,5 +143,3 @@ int FillIntegers(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
 }
 
 }  // namespace stiction::generators
-
-#endif  // STICTION_SEARCH_GENERATORS_DRAWING_H_

@@ -7,8 +7,7 @@
 // A is the matrix of Fathi (Mathematical Programming 17, 1979; cited from memory) in reverse order, positive
 // definite. The count is proved in solver/published/readings.md, part 10.
 
-#ifndef STICTION_SEARCH_GENERATORS_EXPONENTIAL_H_
-#define STICTION_SEARCH_GENERATORS_EXPONENTIAL_H_
+#pragma once
 
 #include "corpus/exact_problem.h"
 
@@ -20,5 +19,3 @@ namespace stiction {
 ExactProblem ExponentialFamily(int contacts, bool scaled = false);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_GENERATORS_EXPONENTIAL_H_

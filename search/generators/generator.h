@@ -7,8 +7,7 @@
 //     return GeneratorOf<kRow>([](const Given&, Choices& choices, auto& problem) { ... });
 //   }
 
-#ifndef STICTION_SEARCH_GENERATORS_GENERATOR_H_
-#define STICTION_SEARCH_GENERATORS_GENERATOR_H_
+#pragma once
 
 #include <array>
 #include <tuple>
@@ -58,5 +57,3 @@ STICTION_GENERATORS(STICTION_DECLARE_GENERATOR)
 #undef STICTION_DECLARE_GENERATOR
 
 }  // namespace stiction::generators
-
-#endif  // STICTION_SEARCH_GENERATORS_GENERATOR_H_

@@ -3,11 +3,7 @@
 
 #include "search/generators/generators.h"
 
-#include <algorithm>
-#include <span>
-
 #include "corpus/named_rows.h"
-#include "corpus/rational.h"
 #include "search/generators/drawing.h"
 #include "search/generators/generator.h"
 #include "solver/problem/check.h"

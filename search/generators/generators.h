@@ -16,8 +16,7 @@
 //             is Row(id).most_mu_part; gravity_only only where the generator has gravity.
 // Cost        fixed Rows over floating-point scalars: no allocation. Eigen::Dynamic resizes.
 
-#ifndef STICTION_SEARCH_GENERATORS_GENERATORS_H_
-#define STICTION_SEARCH_GENERATORS_GENERATORS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -114,5 +113,3 @@ Drawn Generate(GeneratorId id, int contacts, const Surroundings& surroundings, C
                ContactProblem<Scalar, Rows>& problem);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_GENERATORS_GENERATORS_H_

@@ -4,8 +4,7 @@
 //
 // NAME is GeneratorId::kNAME, and MakeNAME() (generator.h) is in the file of the generator.
 
-#ifndef STICTION_SEARCH_GENERATORS_LIST_H_
-#define STICTION_SEARCH_GENERATORS_LIST_H_
+#pragma once
 
 #define STICTION_GENERATORS(X) \
   X(Integers)                  \
@@ -25,5 +24,3 @@
   X(Exceptional)               \
   X(Steps)                     \
   X(Game)
-
-#endif  // STICTION_SEARCH_GENERATORS_LIST_H_

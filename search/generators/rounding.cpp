@@ -25,6 +25,53 @@ ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& 
   return rescaled;
 }
 
+// The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
+Rational InverseRoot(const Rational& x) {
+  if (x <= 0) return 1;
+  const double exponent = std::ilogb(ToDouble(x));
+  const auto half = static_cast<long>(-exponent / 2);
+  const Rational power(mpz_class(1) << std::abs(half));
+  return half < 0 ? Rational(1 / power) : power;
+}
+
+Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
+  const Rational shifted = x + Rational(1, 2);
+  mpz_class floor;
+  mpz_fdiv_q(floor.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  return Rational(floor);
+}
+
+template <class Numbers>
+Rational LargestEntry(const Numbers& numbers) {
+  Rational largest = 0;
+  for (const Rational& x : numbers.reshaped()) largest = std::max<Rational>(largest, abs(x));
+  return largest;
+}
+
+// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
+// denominators; 1 if all are zero.
+template <class Matrix>
+Rational CommonFactor(const Matrix& numbers) {
+  mpz_class numerator = 0, denominator = 1;
+  for (const Rational& x : numbers.reshaped()) {
+    if (x == 0) continue;
+    numerator = gcd(numerator, x.get_num());
+    denominator = lcm(denominator, x.get_den());
+  }
+  return numerator == 0 ? Rational(1) : Rational(Rational(numerator) / Rational(denominator));
+}
+
+// x to so many significant bits.
+Rational Significant(const Rational& x, int bits) {
+  if (x == 0) return 0;
+  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
+                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
+  const long shift = bits - size;
+  const Rational power(mpz_class(1) << std::abs(shift));
+  const Rational scale = shift < 0 ? Rational(1 / power) : power;
+  return Rounded(Rational(x * scale)) / scale;
+}
+
 }  // namespace
 
 ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
@@ -40,19 +87,6 @@ ExactProblem Stretched(const ExactProblem& problem, int only_contact) {
   return Rescaled(problem, s);
 }
 
-namespace {
-
-// The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
-Rational InverseRoot(const Rational& x) {
-  if (x <= 0) return 1;
-  const double exponent = std::ilogb(ToDouble(x));
-  const auto half = static_cast<long>(-exponent / 2);
-  const Rational power(mpz_class(1) << std::abs(half));
-  return half < 0 ? Rational(1 / power) : power;
-}
-
-}  // namespace
-
 ExactProblem Equilibrated(const ExactProblem& problem) {
   RowLayout<Eigen::Dynamic> layout;
   layout.Assign(problem.contacts, problem.dimension);
@@ -63,31 +97,10 @@ ExactProblem Equilibrated(const ExactProblem& problem) {
   return Stretched(Rescaled(problem, s), -1);
 }
 
-namespace {
-
-Rational Rounded(const Rational& x) {  // to the nearest integer, halves upward
-  const Rational shifted = x + Rational(1, 2);
-  mpz_class floor;
-  mpz_fdiv_q(floor.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
-  return Rational(floor);
-}
-
-Rational LargestEntry(const ExactProblem& problem, bool of_A) {
-  Rational largest = 0;
-  for (int i = 0; i < problem.rows(); ++i) {
-    if (!of_A) largest = std::max<Rational>(largest, abs(problem.b[i]));
-    for (int j = 0; of_A && j < problem.rows(); ++j)
-      largest = std::max<Rational>(largest, abs(problem.A(i, j)));
-  }
-  return largest;
-}
-
-}  // namespace
-
 ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::int64_t size_b,
                        const Ridge& ridge) {
   ExactProblem rounded = problem;
-  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational largest_A = LargestEntry(problem.A), largest_b = LargestEntry(problem.b);
   const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size_A) / largest_A);
   const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(Rational(size_b) / largest_b);
   for (int i = 0; i < problem.rows(); ++i) {
@@ -102,7 +115,7 @@ ExactProblem RoundedTo(const ExactProblem& problem, std::int64_t size_A, std::in
 
 ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots) {
   ExactProblem rounded = problem;
-  const Rational largest_A = LargestEntry(problem, true), largest_b = LargestEntry(problem, false);
+  const Rational largest_A = LargestEntry(problem.A), largest_b = LargestEntry(problem.b);
   const Rational scale_A = largest_A == 0 ? Rational(0) : Rational(Rational(size) / largest_A);
   const Rational size_b(lots.Integer((size + 1) / 2, size));
   const Rational scale_b = largest_b == 0 ? Rational(0) : Rational(size_b / largest_b);
@@ -117,23 +130,6 @@ ExactProblem RoundedByLot(const ExactProblem& problem, int size, Choices& lots) 
   return rounded;
 }
 
-namespace {
-
-// The largest rational g such that all numbers are integer multiples of it: gcd of numerators over lcm of
-// denominators; 1 if all are zero.
-template <class Matrix>
-Rational CommonFactor(const Matrix& numbers) {
-  mpz_class numerator = 0, denominator = 1;
-  for (const Rational& x : numbers.reshaped()) {
-    if (x == 0) continue;
-    numerator = gcd(numerator, x.get_num());
-    denominator = lcm(denominator, x.get_den());
-  }
-  return numerator == 0 ? Rational(1) : Rational(Rational(numerator) / Rational(denominator));
-}
-
-}  // namespace
-
 std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& problem) {
   const Rational in_A = CommonFactor(problem.A), in_b = CommonFactor(problem.b);
   ExactProblem divided_A = problem, divided_b = problem;
@@ -141,21 +137,6 @@ std::pair<ExactProblem, ExactProblem> WithoutCommonFactors(const ExactProblem& p
   for (Rational& x : divided_b.b) x /= in_b;
   return {std::move(divided_A), std::move(divided_b)};
 }
-
-namespace {
-
-// x to so many significant bits.
-Rational Significant(const Rational& x, int bits) {
-  if (x == 0) return 0;
-  const auto size = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) -
-                    static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
-  const long shift = bits - size;
-  const Rational power(mpz_class(1) << std::abs(shift));
-  const Rational scale = shift < 0 ? Rational(1 / power) : power;
-  return Rounded(Rational(x * scale)) / scale;
-}
-
-}  // namespace
 
 std::optional<ExactProblem> WithRoundedFactors(const ExactProblem& problem, int bits) {
   auto decision = DecideSemidefinite(problem.A);

@@ -2,8 +2,7 @@
 // Simpler numbers for a problem: what Minimize (minimize.h) tries. None of these promises that the problem
 // keeps its outcome, or its properties, unless it says so.
 
-#ifndef STICTION_SEARCH_GENERATORS_ROUNDING_H_
-#define STICTION_SEARCH_GENERATORS_ROUNDING_H_
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -47,5 +46,3 @@ std::optional<ExactProblem> WithRoundedFactors(const ExactProblem& problem, int 
 std::vector<Rational> SimplerNumbers(const Rational& x, bool positive);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_GENERATORS_ROUNDING_H_

@@ -18,12 +18,10 @@
 // Contacts come in the order of FindContacts on the scene (scene/contacts.h), so that its full model
 // (Assemble, minimal = false) is the problem itself.
 
-#ifndef STICTION_SEARCH_GENERATORS_SCENES_H_
-#define STICTION_SEARCH_GENERATORS_SCENES_H_
+#pragma once
 
 #include <array>
 #include <optional>
-#include <span>
 
 #include "corpus/rational.h"
 #include "scene/scene.h"
@@ -103,5 +101,3 @@ std::optional<Scene<Rational>> GenerateScene(GeneratorId id, int contacts, const
                                              Choices& choices);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_GENERATORS_SCENES_H_

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bodies of a design (scenes.h) over any scalar.
 
-#ifndef STICTION_SEARCH_SCENES_IPP_
-#define STICTION_SEARCH_SCENES_IPP_
+#pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "search/generators/scenes.h"
 
@@ -135,5 +133,3 @@ SceneBody<Scalar> MakeSceneBody(const SceneDesign& design, int c) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_SCENES_IPP_

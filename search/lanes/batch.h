@@ -10,8 +10,7 @@
 // Exactness   lanes do not touch each other: results do not depend on the instruction set, nor on what is
 // beside.
 
-#ifndef STICTION_SEARCH_LANES_BATCH_H_
-#define STICTION_SEARCH_LANES_BATCH_H_
+#pragma once
 
 #include <span>
 #include <vector>
@@ -65,5 +64,3 @@ class Batch {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_LANES_BATCH_H_

@@ -3,8 +3,7 @@
 // since a function that is compiled for several instruction sets under one name may end up in the wrong
 // program.
 
-#ifndef STICTION_SEARCH_LANES_BLOCK_H_
-#define STICTION_SEARCH_LANES_BLOCK_H_
+#pragma once
 
 #include <cstdint>
 
@@ -68,5 +67,3 @@ struct LaneCodes {
 extern const LaneCodes kAvx2Lanes, kAvx512Lanes;
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_LANES_BLOCK_H_

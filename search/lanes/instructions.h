@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which vectors of the processor problems are batched in (batch.h). What comes out does not depend on it.
 
-#ifndef STICTION_SEARCH_LANES_INSTRUCTIONS_H_
-#define STICTION_SEARCH_LANES_INSTRUCTIONS_H_
+#pragma once
 
 #include <cstdint>
 #include <string_view>
@@ -19,5 +18,3 @@ std::vector<InstructionSet> InstructionSets();
 inline InstructionSet BestInstructionSet() { return InstructionSets().back(); }
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_LANES_INSTRUCTIONS_H_

@@ -2,8 +2,7 @@
 // Vectors of doubles, one to a lane, in the instruction set that the including file is compiled for. Everything
 // here is local to that file.
 
-#ifndef STICTION_SEARCH_LANES_LANES_H_
-#define STICTION_SEARCH_LANES_LANES_H_
+#pragma once
 
 #include <immintrin.h>
 
@@ -51,5 +50,3 @@ constexpr unsigned kEveryLane = (1u << kLanes) - 1;
 
 }  // namespace
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_LANES_LANES_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One problem given to a solver under test: how it fails, if it does.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_EXAMINE_H_
-#define STICTION_SEARCH_UNDER_TEST_EXAMINE_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -46,5 +45,3 @@ std::int64_t LeakOf(SolverProcess& process, const ContactProblem<double>& posed,
 std::int64_t LeastLeak(const SolverProcess& process);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_EXAMINE_H_

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/descriptor.h"
 #include "corpus/json.h"
 #include "search/under_test/stiction_solver.h"
 
@@ -104,15 +105,6 @@ Json ForcesToJson(const std::vector<double>& forces) {
   Json json = Json::array();
   for (const double force : forces) json.push_back(std::isfinite(force) ? Json(force) : Json());
   return json;
-}
-
-bool WriteAll(int descriptor, const std::string& text) {
-  for (std::size_t written = 0; written < text.size();) {
-    const ssize_t count = write(descriptor, text.data() + written, text.size() - written);
-    if (count <= 0) return false;
-    written += static_cast<std::size_t>(count);
-  }
-  return true;
 }
 
 int AnswerAll(const std::string& file) {

@@ -2,8 +2,7 @@
 // The process that holds a library under test (stiction_solver.h): it speaks on standard input and output as a
 // program under test does (README.md), so that a search knows programs alone.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_HOST_H_
-#define STICTION_SEARCH_UNDER_TEST_HOST_H_
+#pragma once
 
 #include <optional>
 
@@ -17,5 +16,3 @@ inline constexpr const char* kSolverHostWord = "--solver-host";
 std::optional<int> RunAsSolverHost(int argc, char** argv);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_HOST_H_

@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <variant>
-#include <vector>
 
 #include "certify/exact/properties.h"
 #include "certify/exact/solve.h"

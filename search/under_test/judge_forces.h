@@ -19,8 +19,7 @@
 // the accelerations that they make are within as many times the accuracy as there are rows. Where W = 0 any
 // force is an error.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
-#define STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -71,5 +70,3 @@ std::optional<ExactProblem::Vector> SolutionUnder(SolverLaw law, const ContactPr
 std::optional<ExactProblem::Vector> NearSolution(const ContactProblem<double>& posed);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_JUDGE_FORCES_H_

@@ -2,8 +2,7 @@
 // A finding of a solver under test as a program of at most 60 lines for its authors: it gives the solver the
 // problem, and prints what goes wrong beside the right forces.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_REPRODUCER_H_
-#define STICTION_SEARCH_UNDER_TEST_REPRODUCER_H_
+#pragma once
 
 #include <array>
 #include <string>
@@ -30,5 +29,3 @@ std::string ReproducerOf(const Finding& finding, const SolverUnderTest& solver, 
                          const std::string& file);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_REPRODUCER_H_

@@ -8,7 +8,6 @@
 #include "corpus/rounded.h"
 #include "search/adversary/minimize_candidate.h"
 #include "search/adversary/parents.h"
-#include "search/under_test/judge_forces.h"
 #include "search/under_test/solver_process.h"
 
 namespace stiction {

@@ -6,8 +6,7 @@
 // friction: of a scene with several each that the campaign has is tried; under the law `frictionless` there is
 // none, and mu = 0.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_SIMPLE_SCENE_H_
-#define STICTION_SEARCH_UNDER_TEST_SIMPLE_SCENE_H_
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -29,5 +28,3 @@ std::optional<Candidate> SimpleSceneOf(const Finding& finding, const Campaign& c
 ProblemFile PosedFileOf(const Candidate& scene, SolverLaw law, const std::string& name);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_SIMPLE_SCENE_H_

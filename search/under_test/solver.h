@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A solver under test, as it says what it is; README.md.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_H_
-#define STICTION_SEARCH_UNDER_TEST_SOLVER_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -26,5 +25,3 @@ struct SolverUnderTest {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_H_

@@ -23,6 +23,7 @@
 #include "corpus/exact_problem.h"
 #include "corpus/json.h"
 #include "search/under_test/host.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 namespace {
@@ -173,11 +174,8 @@ ContactProblem<double> PosedFor(SolverLaw law, const ContactProblem<double>& pro
   if (law != SolverLaw::kFrictionless) return problem;
   ContactProblem<double> posed;
   posed.dimension = problem.dimension;
-  std::vector<int> rows;
-  int row = 0;
+  const std::vector<int> rows = NormalRowsOf(problem);
   for (Contact<double> contact : problem.contacts) {
-    rows.push_back(row);
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
     if (contact.HasFrictionRows()) contact = {ContactKind::kFrictionless, 0, {}};
     posed.contacts.push_back(contact);
   }
@@ -188,12 +186,10 @@ ContactProblem<double> PosedFor(SolverLaw law, const ContactProblem<double>& pro
 
 std::vector<double> FixedBounds(const ContactProblem<double>& problem) {
   std::vector<double> bounds;
-  int row = 0;
-  for (const auto& contact : problem.contacts) {
+  ForEachContact(problem, [&](int i, int row, int) {
     const double own = problem.A(row, row);
-    bounds.push_back(own > 0 ? contact.mu * std::abs(problem.b[row]) / own : 0);
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
-  }
+    bounds.push_back(own > 0 ? problem.contacts[i].mu * std::abs(problem.b[row]) / own : 0);
+  });
   return bounds;
 }
 

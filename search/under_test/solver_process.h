@@ -3,14 +3,12 @@
 // problem, memory, bytes that it writes. Whatever it does, a call ends within its budget, or as soon as the
 // search is stopped, and nothing that it started outlives it (certify/exact/line_process.h).
 
-#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_PROCESS_H_
-#define STICTION_SEARCH_UNDER_TEST_SOLVER_PROCESS_H_
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,5 +100,3 @@ class SolverProcess {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_PROCESS_H_

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "corpus/exact_problem.h"
 #include "corpus/grouped.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"
@@ -24,13 +23,6 @@
 
 namespace stiction {
 namespace {
-
-void Add(UnderTestTally& sum, const UnderTestTally& tally) {
-  std::vector<std::int64_t> values;
-  ForEachCounter(tally, [&values](const char*, std::int64_t value) { values.push_back(value); });
-  auto next = values.begin();
-  ForEachCounter(sum, [&next](const char*, std::int64_t& value) { value += *next++; });
-}
 
 // Counters that tell how it fails, by kind; what is 0 is left out.
 std::map<std::string, std::int64_t> FailuresOf(const UnderTestTally& tally) {
@@ -66,7 +58,7 @@ using TallyByValue = std::map<std::string, UnderTestTally, ByValue>;
 
 TallyByValue By(const Aspect& aspect, const Record& record) {
   TallyByValue tallies;
-  for (const auto& [key, tally] : record.under_test) Add(tallies[aspect.value(key)], tally);
+  for (const auto& [key, tally] : record.under_test) AddCounters(tallies[aspect.value(key)], tally);
   return tallies;
 }
 
@@ -78,7 +70,7 @@ struct TestedStore {
 
   static TestedStore Of(const Store& store, const std::string& file) {
     TestedStore tested = {store, CampaignOf(store.identity(), file), TotalsOf(store), {}};
-    for (const auto& [key, tally] : tested.totals.record.under_test) Add(tested.sum, tally);
+    for (const auto& [key, tally] : tested.totals.record.under_test) AddCounters(tested.sum, tally);
     return tested;
   }
 };

@@ -2,8 +2,7 @@
 // The report of a solver under test: how often it fails and how, by what problems are like, and its smallest
 // findings.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_
-#define STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_
+#pragma once
 
 #include <string>
 
@@ -29,5 +28,3 @@ Json GroupsToJson(const Store& store);
 std::string ShapeOfSolver();  // of what it gives (cli/schema.h)
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_REPORT_H_

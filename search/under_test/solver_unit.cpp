@@ -15,7 +15,6 @@
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "search/adversary/optimized_unit.h"
-#include "search/under_test/examine.h"
 #include "search/under_test/simple_scene.h"
 #include "search/units/collector.h"
 #include "search/units/minimize.h"

@@ -5,8 +5,7 @@
 // problems comes from the unit alone, so that units are the same whoever runs them. Problems are drawn over
 // doubles, and what a finding has is what the solver was given.
 
-#ifndef STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
-#define STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -44,5 +43,3 @@ std::optional<Finding> FinishSolverFinding(const Finding& finding, const Campaig
                                            SolverProcess& process, const std::function<bool()>& cancelled);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNDER_TEST_SOLVER_UNIT_H_

@@ -2,8 +2,7 @@
 /* A solver that `stiction search --solver FILE.so` tests: a shared library with these four functions.
  * README.md. */
 
-#ifndef STICTION_SOLVER_H_
-#define STICTION_SOLVER_H_
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {

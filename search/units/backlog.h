@@ -5,8 +5,7 @@
 // contacts at most so many are finished or wait; a grave one always waits. What has no room is left out until
 // somebody asks for all. None of this changes what a search finds.
 
-#ifndef STICTION_SEARCH_UNITS_BACKLOG_H_
-#define STICTION_SEARCH_UNITS_BACKLOG_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "corpus/store/store.h"
 
@@ -85,5 +83,3 @@ struct FinishingTime {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_BACKLOG_H_

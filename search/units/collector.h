@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collector: what one unit counts and finds while it runs.
 
-#ifndef STICTION_SEARCH_UNITS_COLLECTOR_H_
-#define STICTION_SEARCH_UNITS_COLLECTOR_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -105,5 +104,3 @@ class Collector {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_COLLECTOR_H_

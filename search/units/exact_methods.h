@@ -2,8 +2,7 @@
 // What a search asks of exact arithmetic, in space of intervals; and of Ipopt. Tests put wrong answers in the
 // place of these, to see that every alarm of a search rings.
 
-#ifndef STICTION_SEARCH_UNITS_EXACT_METHODS_H_
-#define STICTION_SEARCH_UNITS_EXACT_METHODS_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -47,5 +46,3 @@ struct ExactMethods {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_EXACT_METHODS_H_

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include "certify/claims/agreement.h"
-#include "certify/exact/enumerate.h"
 #include "certify/exact/published_space.h"
-#include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/kinds.h"
 #include "search/units/signature.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Examiner: looks at a problem of a unit again, with certified signs, over rationals, by other methods.
 
-#ifndef STICTION_SEARCH_UNITS_EXAMINER_H_
-#define STICTION_SEARCH_UNITS_EXAMINER_H_
+#pragma once
 
 #include "certify/exact/exact.h"
 #include "certify/exact/filtered.h"
@@ -74,5 +73,3 @@ class Examiner {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_EXAMINER_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finishing a finding: certified, put through the whole grid of policies, minimized, certified again.
 
-#ifndef STICTION_SEARCH_UNITS_FINISH_H_
-#define STICTION_SEARCH_UNITS_FINISH_H_
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -30,5 +29,3 @@ Json GridCounts(
     const std::function<bool()>& cancelled = [] { return false; });
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_FINISH_H_

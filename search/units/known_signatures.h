@@ -2,8 +2,7 @@
 // The signatures of the loops of the corpus, so that a search can tell what is new from what is known. With
 // more than two contacts a signature is only counts (signature.h), and so is what it is known by.
 
-#ifndef STICTION_SEARCH_UNITS_KNOWN_SIGNATURES_H_
-#define STICTION_SEARCH_UNITS_KNOWN_SIGNATURES_H_
+#pragma once
 
 #include <span>
 #include <string_view>
@@ -22,5 +21,3 @@ std::span<const KnownSignature> KnownSignatures();
 std::string_view KnownAs(std::string_view signature);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_KNOWN_SIGNATURES_H_

@@ -31,31 +31,17 @@ void ForEachNumber(const ExactProblem& problem, Visit visit) {
 // The problem of the rows that are kept.
 ExactProblem Restrict(const ExactProblem& problem, std::vector<Contact<Rational>> contacts,
                       const std::vector<int>& rows) {
-  ExactProblem smaller;
-  smaller.dimension = problem.dimension;
-  smaller.contacts = std::move(contacts);
-  const int size = static_cast<int>(rows.size());
-  smaller.A.resize(size, size);
-  smaller.b.resize(size);
-  for (int i = 0; i < size; ++i) {
-    smaller.b[i] = problem.b[rows[i]];
-    for (int j = 0; j < size; ++j) smaller.A(i, j) = problem.A(rows[i], rows[j]);
-  }
-  return smaller;
+  return {problem.dimension, std::move(contacts), problem.A(rows, rows), problem.b(rows)};
 }
 
 ExactProblem WithoutContact(const ExactProblem& problem, int dropped) {
   std::vector<Contact<Rational>> contacts;
   std::vector<int> rows;
-  int row = 0;
-  for (int contact = 0; contact < static_cast<int>(problem.contacts.size()); ++contact) {
-    const int size = problem.contacts[contact].HasFrictionRows() ? problem.dimension : 1;
-    if (contact != dropped) {
-      contacts.push_back(problem.contacts[contact]);
-      for (int k = 0; k < size; ++k) rows.push_back(row + k);
-    }
-    row += size;
-  }
+  ForEachContact(problem, [&](int contact, int row, int size) {
+    if (contact == dropped) return;
+    contacts.push_back(problem.contacts[contact]);
+    for (int k = 0; k < size; ++k) rows.push_back(row + k);
+  });
   return Restrict(problem, std::move(contacts), rows);
 }
 

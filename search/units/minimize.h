@@ -14,10 +14,8 @@
 //   are at most three contacts: entries rounded up or down by lot, and two entries changed at once.
 // Deterministic; no clock. Cost: one exact run per candidate, one run of the policies per accepted one.
 
-#ifndef STICTION_SEARCH_UNITS_MINIMIZE_H_
-#define STICTION_SEARCH_UNITS_MINIMIZE_H_
+#pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -71,5 +69,3 @@ struct Minimized {
 Minimized Minimize(const ExactProblem& problem, const MinimizeOptions& options);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_MINIMIZE_H_

@@ -5,7 +5,6 @@
 
 #include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
-#include "search/generators/generators.h"
 #include "search/generators/scenes.h"
 
 namespace stiction {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problem number `index` of a unit, from the seed alone.
 
-#ifndef STICTION_SEARCH_UNITS_REGENERATE_H_
-#define STICTION_SEARCH_UNITS_REGENERATE_H_
+#pragma once
 
 #include <cstdint>
 
@@ -32,5 +31,3 @@ Finding FindingAt(const Campaign& campaign, const Task& task, std::int64_t unit,
                   std::size_t policy = 0);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_REGENERATE_H_

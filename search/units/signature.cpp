@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <vector>
 
 #include "solver/problem/check.h"
 
@@ -90,22 +88,6 @@ std::string SmallestWord(const Verdict& verdict, const Steps<Scalar>& period,
   return smallest;
 }
 
-}  // namespace
-
-std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
-  STICTION_CHECK(IsLoop(run.verdict.outcome), "only loops have a word");
-  RowLayout<Eigen::Dynamic> layout;
-  layout.Assign(problem.contacts);
-  return SmallestWord(run.verdict, Period(run.verdict, run.trace.pivots), layout);
-}
-
-std::string CountsSignature(std::size_t contacts, Outcome outcome, std::int64_t period) {
-  if (!IsLoop(outcome)) return fmt::format("{}-{}c", Name(outcome), contacts);
-  return fmt::format("{}-{}c-{}d", Name(outcome), contacts, period);
-}
-
-namespace {
-
 template <class Scalar>
 LoopFacts CountsOf(const Verdict& verdict, const Steps<Scalar>& period,
                    const RowLayout<Eigen::Dynamic>& layout) {
@@ -138,6 +120,18 @@ LoopFacts FactsOf(const ExactProblem& problem, const Verdict& verdict, const std
 }
 
 }  // namespace
+
+std::string LoopWord(const ExactProblem& problem, const ExactRun& run) {
+  STICTION_CHECK(IsLoop(run.verdict.outcome), "only loops have a word");
+  RowLayout<Eigen::Dynamic> layout;
+  layout.Assign(problem.contacts);
+  return SmallestWord(run.verdict, Period(run.verdict, run.trace.pivots), layout);
+}
+
+std::string CountsSignature(std::size_t contacts, Outcome outcome, std::int64_t period) {
+  if (!IsLoop(outcome)) return fmt::format("{}-{}c", Name(outcome), contacts);
+  return fmt::format("{}-{}c-{}d", Name(outcome), contacts, period);
+}
 
 template <class Scalar>
 LoopFacts FactsOfLoop(const ExactProblem& problem, const Verdict& verdict,

@@ -6,8 +6,7 @@
 // named in the order in which they appear, tangents turned so that the first limit of each contact is the
 // upper one, and of all rotations of the period the smallest word is taken.
 
-#ifndef STICTION_SEARCH_UNITS_SIGNATURE_H_
-#define STICTION_SEARCH_UNITS_SIGNATURE_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -47,5 +46,3 @@ LoopFacts FactsOfLoop(const ExactProblem& problem, const Verdict& verdict,
 std::string CountsSignature(std::size_t contacts, Outcome outcome, std::int64_t period);
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_SIGNATURE_H_

@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "corpus/input_error.h"
 #include "search/generators/generators.h"

@@ -12,8 +12,7 @@
 // exact, otherwise they say `undecided`. Nothing but (campaign, unit number) decides what comes out. In the
 // plane the path of a problem that raises no suspicion allocates nothing.
 
-#ifndef STICTION_SEARCH_UNITS_UNIT_H_
-#define STICTION_SEARCH_UNITS_UNIT_H_
+#pragma once
 
 #include <functional>
 #include <map>
@@ -66,5 +65,3 @@ class UnitRunner {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_UNIT_H_

@@ -4,8 +4,7 @@
 // The processor clock of a thread is slow to read, so it is read twice, and the parts between are measured on
 // the wall clock and scaled to it: time in which the thread did not run is spread over all parts.
 
-#ifndef STICTION_SEARCH_UNITS_WORK_METER_H_
-#define STICTION_SEARCH_UNITS_WORK_METER_H_
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -96,5 +95,3 @@ class SampledDraws {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SEARCH_UNITS_WORK_METER_H_

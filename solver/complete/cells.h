@@ -13,8 +13,7 @@
 //   kFree      0      0    aN = 0, fN >= 0, fF = -mu fN slip: no friction, mu = 0, or sliding (24)
 //   kHold      H      H    aN = 0, fN of any sign: bilateral
 
-#ifndef STICTION_SOLVER_COMPLETE_CELLS_H_
-#define STICTION_SOLVER_COMPLETE_CELLS_H_
+#pragma once
 
 #include <array>
 #include <compare>
@@ -155,5 +154,3 @@ template <Facet::Kind kind>
 using KindIs = std::integral_constant<Facet::Kind, kind>;
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_CELLS_H_

@@ -38,13 +38,11 @@
 //            ties are the same. Over doubles that leaves two contacts about a fifth slower than a program for
 //            the plane alone was, since unknowns are kept as combinations; four and more are as fast.
 
-#ifndef STICTION_SOLVER_COMPLETE_COMPLETE_H_
-#define STICTION_SOLVER_COMPLETE_COMPLETE_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "solver/complete/cells.h"
@@ -229,5 +227,3 @@ class CompleteDriving {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_COMPLETE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for complete.h, in the order of complete_driving.md.
 
-#ifndef STICTION_SOLVER_COMPLETE_COMPLETE_IPP_
-#define STICTION_SOLVER_COMPLETE_COMPLETE_IPP_
+#pragma once
 
 #include <algorithm>
 #include <limits>
@@ -440,5 +439,3 @@ bool CompleteDriving<Scalar, Rows>::IsFinite() const {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_COMPLETE_IPP_

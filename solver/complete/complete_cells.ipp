@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for complete.h: the cells of a contact, each with its unknowns and facets.
 
-#ifndef STICTION_SOLVER_COMPLETE_COMPLETE_CELLS_IPP_
-#define STICTION_SOLVER_COMPLETE_COMPLETE_CELLS_IPP_
+#pragma once
 
 #include <utility>
 
@@ -260,5 +259,3 @@ Scalar CompleteDriving<Scalar, Rows>::PlanarValue(OfKind kind, const Facet& face
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_COMPLETE_CELLS_IPP_

@@ -2,8 +2,7 @@
 // Definitions for complete.h: what a run leaves behind. Answers over inexact scalars are measured, pieces of
 // the path recorded.
 
-#ifndef STICTION_SOLVER_COMPLETE_COMPLETE_END_IPP_
-#define STICTION_SOLVER_COMPLETE_COMPLETE_END_IPP_
+#pragma once
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +10,6 @@
 
 #include "solver/complete/complete.h"
 #include "solver/complete/polygon_errors.h"
-#include "solver/problem/check.h"
 #include "solver/problem/lenient.h"
 
 namespace stiction {
@@ -113,5 +111,3 @@ std::string CompleteDriving<Scalar, Rows>::Word() const {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_COMPLETE_END_IPP_

@@ -2,8 +2,7 @@
 // Definitions for complete.h: signs of facet functions under the symbolic perturbation of b
 // (complete_driving.md, part 5).
 
-#ifndef STICTION_SOLVER_COMPLETE_COMPLETE_TIES_IPP_
-#define STICTION_SOLVER_COMPLETE_COMPLETE_TIES_IPP_
+#pragma once
 
 #include <vector>
 
@@ -104,5 +103,3 @@ void CompleteDriving<Scalar, Rows>::AddGradient(const Facet& facet, const Scalar
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_COMPLETE_TIES_IPP_

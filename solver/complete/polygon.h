@@ -8,11 +8,9 @@
 // Corners over rationals are exact: ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) with t rational, and quarter
 // turns.
 
-#ifndef STICTION_SOLVER_COMPLETE_POLYGON_H_
-#define STICTION_SOLVER_COMPLETE_POLYGON_H_
+#pragma once
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "solver/problem/check.h"
@@ -132,5 +130,3 @@ class FrictionPolygon {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_POLYGON_H_

@@ -3,8 +3,7 @@
 // fF from the nearest point of mu fN times the polygon to fF - r aF, which vanishes exactly where fF is a point
 // of that polygon with the least fF.aF. Shapes: f, a rows x 1; one polygon per contact. Requires dimension 3.
 
-#ifndef STICTION_SOLVER_COMPLETE_POLYGON_ERRORS_H_
-#define STICTION_SOLVER_COMPLETE_POLYGON_ERRORS_H_
+#pragma once
 
 #include <vector>
 
@@ -43,5 +42,3 @@ Errors<Scalar> PolygonErrors(const Problem& problem, const std::vector<FrictionP
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_COMPLETE_POLYGON_ERRORS_H_

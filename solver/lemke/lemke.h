@@ -50,8 +50,7 @@
 //              anew at every pivot, O(m^3), since updates would let the ends drift apart.
 // Cost         O(m^2) per pivot; with a trace, O(rows^2) more.
 
-#ifndef STICTION_SOLVER_LEMKE_LEMKE_H_
-#define STICTION_SOLVER_LEMKE_LEMKE_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -197,5 +196,3 @@ class LemkeAlgorithm {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LEMKE_LEMKE_H_

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for lemke.h.
 
-#ifndef STICTION_SOLVER_LEMKE_LEMKE_IPP_
-#define STICTION_SOLVER_LEMKE_LEMKE_IPP_
+#pragma once
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "solver/complete/polygon.h"
 #include "solver/lemke/lemke.h"
 #include "solver/problem/check.h"
 #include "solver/problem/lenient.h"
@@ -618,5 +616,3 @@ void LemkeAlgorithm<Scalar, Rows>::RecordPoint(int row) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LEMKE_LEMKE_IPP_

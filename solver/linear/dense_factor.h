@@ -10,8 +10,7 @@
 // Shapes: M is k x k, k at most the size reserved. Nothing is allocated between calls of Reserve, except by
 // Eigen's products of blocks above about 100 x 100.
 
-#ifndef STICTION_SOLVER_LINEAR_DENSE_FACTOR_H_
-#define STICTION_SOLVER_LINEAR_DENSE_FACTOR_H_
+#pragma once
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -215,5 +214,3 @@ class DenseFactor {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_DENSE_FACTOR_H_

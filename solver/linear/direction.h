@@ -24,8 +24,7 @@
 //            floating-point scalars and with dynamic sizes, O(k^2) from some number of unknowns on, if few sets
 //            have changed since the call before (updated_system.h).
 
-#ifndef STICTION_SOLVER_LINEAR_DIRECTION_H_
-#define STICTION_SOLVER_LINEAR_DIRECTION_H_
+#pragma once
 
 #include <optional>
 #include <type_traits>
@@ -112,5 +111,3 @@ class DirectionSystem {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_DIRECTION_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for direction.h.
 
-#ifndef STICTION_SOLVER_LINEAR_DIRECTION_IPP_
-#define STICTION_SOLVER_LINEAR_DIRECTION_IPP_
+#pragma once
 
 #include <utility>
 
@@ -261,5 +260,3 @@ void DirectionSystem<Scalar, Rows>::SpreadIntegers(const Unknowns& unknowns, int
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_DIRECTION_IPP_

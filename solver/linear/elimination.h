@@ -15,8 +15,7 @@
 //            a column without one is free. Both eliminations choose the same rows and columns.
 // Cost       O(rows^2 columns). Allocates nothing once sized, integers apart.
 
-#ifndef STICTION_SOLVER_LINEAR_ELIMINATION_H_
-#define STICTION_SOLVER_LINEAR_ELIMINATION_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -81,5 +80,3 @@ class Elimination {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_ELIMINATION_H_

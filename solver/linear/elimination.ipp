@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for elimination.h.
 
-#ifndef STICTION_SOLVER_LINEAR_ELIMINATION_IPP_
-#define STICTION_SOLVER_LINEAR_ELIMINATION_IPP_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -170,5 +169,3 @@ Scalar Elimination<Scalar, Rows>::Solution(int j) const {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_ELIMINATION_IPP_

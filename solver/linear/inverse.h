@@ -13,8 +13,7 @@
 // Shapes     M: k x k, k at most the size reserved.
 // Cost       O(k^2) a change, which reads and writes B once; O(k^3) for Invert, which alone allocates.
 
-#ifndef STICTION_SOLVER_LINEAR_INVERSE_H_
-#define STICTION_SOLVER_LINEAR_INVERSE_H_
+#pragma once
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -135,5 +134,3 @@ class Inverse {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_INVERSE_H_

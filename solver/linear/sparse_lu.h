@@ -7,8 +7,7 @@
 // the pivots do not suit are taken again with pivots of their own.
 // Shapes: K n x n, compressed; y n x 1. Doubles alone.
 
-#ifndef STICTION_SOLVER_LINEAR_SPARSE_LU_H_
-#define STICTION_SOLVER_LINEAR_SPARSE_LU_H_
+#pragma once
 
 #include <Eigen/SparseCore>
 #include <memory>
@@ -40,5 +39,3 @@ class SparseLu {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_SPARSE_LU_H_

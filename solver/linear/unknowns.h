@@ -8,8 +8,7 @@
 // type that has them: SetUnknowns below, which reads the sets of the paper, or ListedUnknowns. An unknown is
 // named by a row; two of the same contact never by the same.
 
-#ifndef STICTION_SOLVER_LINEAR_UNKNOWNS_H_
-#define STICTION_SOLVER_LINEAR_UNKNOWNS_H_
+#pragma once
 
 #include <array>
 #include <type_traits>
@@ -213,5 +212,3 @@ struct ListedUnknowns {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_UNKNOWNS_H_

@@ -15,8 +15,7 @@
 // Cost       O(k^2) per changed set and step for k unknowns, O(rows k) for da. Allocates where M is inverted
 // only.
 
-#ifndef STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_
-#define STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -97,5 +96,3 @@ class UpdatedSystem {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_H_

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for updated_system.h.
 
-#ifndef STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_IPP_
-#define STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_IPP_
-
-#include <algorithm>
+#pragma once
 
 #include "solver/linear/updated_system.h"
 
@@ -224,5 +221,3 @@ void UpdatedSystem<Scalar>::Spread(const Problem& problem, const Unknowns& unkno
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_LINEAR_UPDATED_SYSTEM_IPP_

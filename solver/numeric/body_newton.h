@@ -21,11 +21,9 @@
 // Shapes  f, a: rows x 1; v: velocities x 1. For contacts of all kinds. Doubles.
 // Cost    a sparse LDL' or, where something slips, LU factorization per step of Newton's method.
 
-#ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
-#define STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_
+#pragma once
 
 #include <Eigen/SparseCholesky>
-#include <cstdint>
 #include <vector>
 
 #include "solver/linear/sparse_lu.h"
@@ -114,5 +112,3 @@ class BodyNewton {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_BODY_NEWTON_H_

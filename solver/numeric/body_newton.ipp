@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions of body_newton.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_
-#define STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_
+#pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/numeric/body_newton.h"
@@ -343,5 +341,3 @@ auto BodyNewton<Scalar>::Solved(const Vector& y) -> Vector {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_BODY_NEWTON_IPP_

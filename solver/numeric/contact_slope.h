@@ -2,8 +2,7 @@
 // Newton's matrix of laws that each concern one contact: J = D + E A, where D and E have a block per contact.
 // For a dense A of floating-point scalars, and for a sparse one of doubles.
 
-#ifndef STICTION_SOLVER_NUMERIC_CONTACT_SLOPE_H_
-#define STICTION_SOLVER_NUMERIC_CONTACT_SLOPE_H_
+#pragma once
 
 #include <Eigen/LU>
 #include <limits>
@@ -88,5 +87,3 @@ DenseVector<Scalar> SolveLinear(const Eigen::SparseMatrix<Scalar>& J, const Dens
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_CONTACT_SLOPE_H_

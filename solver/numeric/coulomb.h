@@ -27,12 +27,9 @@
 // Cost    O(rows^3) per Newton step, also within proximal ones; O(rows^2) per sweep. With a sparse A a sparse
 //         LU factorization, and the entries of A.
 
-#ifndef STICTION_SOLVER_NUMERIC_COULOMB_H_
-#define STICTION_SOLVER_NUMERIC_COULOMB_H_
+#pragma once
 
 #include <cstdint>
-#include <string_view>
-#include <type_traits>
 
 #include "solver/complete/complete.h"
 #include "solver/numeric/contact_slope.h"
@@ -117,5 +114,3 @@ class CoulombSolver {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_COULOMB_H_

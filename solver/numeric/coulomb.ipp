@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for coulomb.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_COULOMB_IPP_
-#define STICTION_SOLVER_NUMERIC_COULOMB_IPP_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "solver/complete/complete.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/one_contact.h"
 #include "solver/numeric/smooth_law.h"
-#include "solver/problem/errors.h"
 
 namespace stiction {
 
@@ -409,5 +406,3 @@ auto CoulombSolver<Scalar, ProblemType>::SlopeOf(int i) const -> ContactSlope<Sc
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_COULOMB_IPP_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A problem of a dense A in factors, for the methods that take them.
 
-#ifndef STICTION_SOLVER_NUMERIC_DENSE_FACTORS_H_
-#define STICTION_SOLVER_NUMERIC_DENSE_FACTORS_H_
+#pragma once
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -58,5 +57,3 @@ inline std::optional<FactoredProblem<double>> FactorsOf(const ContactProblem<dou
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_DENSE_FACTORS_H_

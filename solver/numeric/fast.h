@@ -27,14 +27,10 @@
 // Source      exchange: J. J. Judice, F. M. Pires, Computers and Operations Research 21, 1994, 587-596; active:
 //             C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23.
 
-#ifndef STICTION_SOLVER_NUMERIC_FAST_H_
-#define STICTION_SOLVER_NUMERIC_FAST_H_
+#pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "solver/complete/complete.h"
@@ -151,5 +147,3 @@ class FastSolver {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_FAST_H_

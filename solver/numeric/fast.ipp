@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for fast.h, in its order.
 
-#ifndef STICTION_SOLVER_NUMERIC_FAST_IPP_
-#define STICTION_SOLVER_NUMERIC_FAST_IPP_
+#pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/numeric/fast.h"
-#include "solver/problem/errors.h"
-#include "solver/published/published.h"
 
 namespace stiction {
 
@@ -67,11 +63,7 @@ void FastSolver<Scalar>::Start(const Problem& problem) {
     correction_.resize(rows + 1);
     factor_.Reserve(rows);
   }
-  int row = 0;
-  for (int contact = 0; contact < contacts; ++contact) {
-    row_of_[contact] = row;
-    row += problem.contacts[contact].HasFrictionRows() ? 2 : 1;
-  }
+  ForEachContact(problem, [this](int contact, int row, int) { row_of_[contact] = row; });
   frictionless_ = rows == contacts;
   distrust_ = false;
   shift_ = Scalar(0);
@@ -586,5 +578,3 @@ void FastSolver<Scalar>::Leave(int j) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_FAST_IPP_

@@ -10,8 +10,7 @@
 // drives along its second tangent. Shapes  f, a: rows x 1; f in N, a in m/s^2. Floating-point scalars. Cost
 // O(rows^2) a sweep.
 
-#ifndef STICTION_SOLVER_NUMERIC_GAUSS_SEIDEL_H_
-#define STICTION_SOLVER_NUMERIC_GAUSS_SEIDEL_H_
+#pragma once
 
 #include "solver/numeric/one_contact.h"
 #include "solver/problem/answer.h"
@@ -68,5 +67,3 @@ Answer<Scalar> RunGaussSeidel(const ContactProblem<Scalar>& problem, const Reque
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_GAUSS_SEIDEL_H_

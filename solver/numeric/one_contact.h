@@ -12,8 +12,7 @@
 //
 // Shapes  W 3 x 3, q 3 x 1: normal, then tangential. Floating-point scalars.
 
-#ifndef STICTION_SOLVER_NUMERIC_ONE_CONTACT_H_
-#define STICTION_SOLVER_NUMERIC_ONE_CONTACT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <array>
@@ -104,5 +103,3 @@ std::array<Scalar, 3> SolveOneContact(const Eigen::Matrix<Scalar, 3, 3>& W,
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_ONE_CONTACT_H_

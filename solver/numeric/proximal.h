@@ -17,11 +17,8 @@
 //             theorem.
 // Cost        one sparse LU factorization of the free rows per step of Newton's method.
 
-#ifndef STICTION_SOLVER_NUMERIC_PROXIMAL_H_
-#define STICTION_SOLVER_NUMERIC_PROXIMAL_H_
+#pragma once
 
-#include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "solver/complete/complete.h"
@@ -77,5 +74,3 @@ class ProximalNewton {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_PROXIMAL_H_

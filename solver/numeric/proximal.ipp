@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions of proximal.h.
 
-#ifndef STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_
-#define STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_
+#pragma once
 
 #include <Eigen/SparseLU>
-#include <algorithm>
 #include <limits>
 
 #include "solver/numeric/proximal.h"
@@ -82,12 +80,7 @@ void ProximalNewton<Scalar>::Start(const Problem& problem) {
     if (!(d > 0)) d = largest > 0 ? largest : Scalar(1);
   }
   proximal_.contacts = problem.contacts;
-  row_of_.clear();
-  int row = 0;
-  for (const auto& contact : problem.contacts) {
-    row_of_.push_back(row);
-    row += contact.HasFrictionRows() ? 2 : 1;
-  }
+  row_of_ = NormalRowsOf(problem);
 }
 
 // The proximal problem of f_.
@@ -193,5 +186,3 @@ bool ProximalNewton<Scalar>::SolveCells() {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_PROXIMAL_IPP_

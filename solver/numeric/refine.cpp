@@ -351,17 +351,6 @@ bool IsNear(const RefinedProblem& problem, FrictionLaw law, const RefinedVector&
   return MeasureLeniently(problem, law, f, a).error < kHopeless;
 }
 
-}  // namespace
-
-void Clean(const RefinedProblem& problem, const std::vector<NearestMode<double>>& modes, const RefinedVector& a,
-           RefinedVector& f) {
-  ForEachContact(problem, [&](int i, int row, int count) {
-    CleanContact(problem.contacts[i], modes[i].motion, count - 1, a.data() + row, f.data() + row);
-  });
-}
-
-namespace {
-
 // f, f cleaned or f improved: the first that passes, or the best.
 Refined Better(const RefinedProblem& problem, FrictionLaw law, const Gate& gate, RefinedVector f,
                GateMeter<double>& meter) {
@@ -380,6 +369,13 @@ Refined Better(const RefinedProblem& problem, FrictionLaw law, const Gate& gate,
 }
 
 }  // namespace
+
+void Clean(const RefinedProblem& problem, const std::vector<NearestMode<double>>& modes, const RefinedVector& a,
+           RefinedVector& f) {
+  ForEachContact(problem, [&](int i, int row, int count) {
+    CleanContact(problem.contacts[i], modes[i].motion, count - 1, a.data() + row, f.data() + row);
+  });
+}
 
 Refined Refine(const RefinedProblem& problem, FrictionLaw law, const Gate& gate, RefinedVector f) {
   GateMeter<double> meter;

@@ -22,8 +22,7 @@
 // Forces are taken only if the gate lets them pass, or at least finds smaller errors. Shapes: f rows x 1. Cost:
 // of cleaning one product A f; of refining a factorization of the rows that touch.
 
-#ifndef STICTION_SOLVER_NUMERIC_REFINE_H_
-#define STICTION_SOLVER_NUMERIC_REFINE_H_
+#pragma once
 
 #include <vector>
 
@@ -46,5 +45,3 @@ void Clean(const ContactProblem<double>& problem, const std::vector<NearestMode<
            const Eigen::VectorXd& a, Eigen::VectorXd& f);
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_REFINE_H_

@@ -15,8 +15,7 @@
 //
 // Units: r kg, m N, e m/s^2. Floating-point scalars.
 
-#ifndef STICTION_SOLVER_NUMERIC_SMOOTH_LAW_H_
-#define STICTION_SOLVER_NUMERIC_SMOOTH_LAW_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cmath>
@@ -74,5 +73,3 @@ struct SmoothStatic {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_NUMERIC_SMOOTH_LAW_H_

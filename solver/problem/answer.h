@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answer: what one method says of one problem, over any scalar.
 
-#ifndef STICTION_SOLVER_PROBLEM_ANSWER_H_
-#define STICTION_SOLVER_PROBLEM_ANSWER_H_
+#pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -66,5 +64,3 @@ Answer<Scalar> AnswerOf(const RunEnd<Counted>& end) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_ANSWER_H_

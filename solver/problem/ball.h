@@ -16,8 +16,7 @@
 // Source: Rump, Fast and parallel interval arithmetic, BIT 39, 1999; Joldes, Muller and Popescu, Tight and
 // rigorous error bounds for basic building blocks of double-word arithmetic, ACM TOMS 44, 2017.
 
-#ifndef STICTION_SOLVER_PROBLEM_BALL_H_
-#define STICTION_SOLVER_PROBLEM_BALL_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cmath>
@@ -187,5 +186,3 @@ struct NumTraits<stiction::Ball<Number>> : GenericNumTraits<stiction::Ball<Numbe
 };
 
 }  // namespace Eigen
-
-#endif  // STICTION_SOLVER_PROBLEM_BALL_H_

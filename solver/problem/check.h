@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our own invariants: a broken one is a bug of stiction, never of its input.
 
-#ifndef STICTION_SOLVER_PROBLEM_CHECK_H_
-#define STICTION_SOLVER_PROBLEM_CHECK_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -34,5 +33,3 @@ class InternalError : public std::logic_error {
   do {                                      \
   } while (false)
 #endif
-
-#endif  // STICTION_SOLVER_PROBLEM_CHECK_H_

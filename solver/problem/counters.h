@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counters: what a method counts, by names that are said once.
 
-#ifndef STICTION_SOLVER_PROBLEM_COUNTERS_H_
-#define STICTION_SOLVER_PROBLEM_COUNTERS_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -135,5 +134,3 @@ class Counters {
 inline constexpr std::string_view Name(Counter c) { return kCounterNames[static_cast<int>(c)].name; }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_COUNTERS_H_

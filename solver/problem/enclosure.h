@@ -5,8 +5,7 @@
 // other throws, so that what a run says is true of the numbers. What is zero by the sets, not by its ends, is
 // set to zero or told from the sets; numbers equal by their ends alone are not taken for equal.
 
-#ifndef STICTION_SOLVER_PROBLEM_ENCLOSURE_H_
-#define STICTION_SOLVER_PROBLEM_ENCLOSURE_H_
+#pragma once
 
 #include <vector>
 
@@ -70,5 +69,3 @@ void MeetDependentZeros(DependentRows* rows, Vector& a) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_ENCLOSURE_H_

@@ -35,12 +35,10 @@
 //
 // Shapes: f, a rows x 1. Rows whose acceleration is known to be off by at most E_i miss that much more.
 
-#ifndef STICTION_SOLVER_PROBLEM_ERRORS_H_
-#define STICTION_SOLVER_PROBLEM_ERRORS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -488,5 +486,3 @@ auto MeasureErrors(const Problem& problem, FrictionLaw law, const Vector& f, con
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_ERRORS_H_

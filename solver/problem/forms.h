@@ -17,8 +17,7 @@
 //
 // A is symmetric and positive semidefinite, whatever J is; with c = 0 or in the range of J, b is in range(A).
 
-#ifndef STICTION_SOLVER_PROBLEM_FORMS_H_
-#define STICTION_SOLVER_PROBLEM_FORMS_H_
+#pragma once
 
 #include <memory>
 #include <mutex>
@@ -204,5 +203,3 @@ class Problem {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_FORMS_H_

@@ -16,8 +16,7 @@
 // themselves. Where products leave the range of doubles, the problem is scaled first, which changes no error
 // (row_scale.h).
 
-#ifndef STICTION_SOLVER_PROBLEM_GATE_H_
-#define STICTION_SOLVER_PROBLEM_GATE_H_
+#pragma once
 
 #include <cmath>
 #include <limits>
@@ -161,5 +160,3 @@ Errors<double> BoundErrors(const Problem& problem, FrictionLaw law, const Vector
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_GATE_H_

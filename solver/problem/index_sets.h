@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Index sets: in which of the paper's sets each variable is (sections 4.1 and 5.3; readings.md, 1).
 
-#ifndef STICTION_SOLVER_PROBLEM_INDEX_SETS_H_
-#define STICTION_SOLVER_PROBLEM_INDEX_SETS_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -40,5 +39,3 @@ inline constexpr bool IsUnknown(IndexSet set) {
 inline constexpr bool IsFrictionSet(IndexSet set) { return set == IndexSet::kSticking || LimitSign(set) != 0; }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_INDEX_SETS_H_

@@ -13,8 +13,7 @@
 // each the largest of its line, the contact that of its least mode. By (21), (22) a slip has any direction with
 // fF.aF <= 0. The law itself is that of errors.h. Shapes: f, a rows x 1; a = A f + b.
 
-#ifndef STICTION_SOLVER_PROBLEM_LENIENT_H_
-#define STICTION_SOLVER_PROBLEM_LENIENT_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -117,5 +116,3 @@ auto MeasureLeniently(const Problem& problem, FrictionLaw law, const Vector& f, 
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_LENIENT_H_

@@ -3,8 +3,7 @@
 // text) and the numbers (tolerances, limits). Command line, JSON, --help, validation and the policy grid all
 // read the two tables of this file.
 
-#ifndef STICTION_SOLVER_PROBLEM_OPTIONS_H_
-#define STICTION_SOLVER_PROBLEM_OPTIONS_H_
+#pragma once
 
 #include <array>
 #include <atomic>
@@ -221,5 +220,3 @@ struct Request {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_OPTIONS_H_

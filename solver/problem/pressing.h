@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How hard bodies press against each other beside what acts on them.
 
-#ifndef STICTION_SOLVER_PROBLEM_PRESSING_H_
-#define STICTION_SOLVER_PROBLEM_PRESSING_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -122,5 +121,3 @@ bool HidesWhatActs(const Problem& problem, const Eigen::VectorXd& f, const Eigen
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_PRESSING_H_

@@ -14,8 +14,7 @@
 // default dense; SparseContactProblem has its nonzero entries; FactoredProblem (forms.h) its factors. Problem
 // (forms.h) is one of these three, as it was read or made.
 
-#ifndef STICTION_SOLVER_PROBLEM_PROBLEM_H_
-#define STICTION_SOLVER_PROBLEM_PROBLEM_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -173,5 +172,3 @@ void ForEachInColumn(const Eigen::SparseMatrix<Scalar>& A, int column, Visit vis
     visit(static_cast<int>(entry.row()), entry.value());
 }
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_PROBLEM_H_

@@ -20,8 +20,7 @@
 // Forces       f = E x + e, x the forces of the reduced problem.
 // Cost         rows^2 times the bilateral ones.
 
-#ifndef STICTION_SOLVER_PROBLEM_REDUCTION_H_
-#define STICTION_SOLVER_PROBLEM_REDUCTION_H_
+#pragma once
 
 #include <cstdint>
 #include <string_view>
@@ -112,5 +111,3 @@ extern template class Reduction<float>;
 extern template class Reduction<double>;
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_REDUCTION_H_

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for reduction.h.
 
-#ifndef STICTION_SOLVER_PROBLEM_REDUCTION_IPP_
-#define STICTION_SOLVER_PROBLEM_REDUCTION_IPP_
+#pragma once
 
 #include <algorithm>
 
 #include "solver/problem/reduction.h"
+#include "solver/problem/units.h"
 
 namespace stiction {
 
@@ -28,9 +28,8 @@ Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerance
 template <class Scalar>
 void Reduction<Scalar>::Sort(const Problem& problem) {
   reduced_.dimension = problem.dimension;
-  int row = 0, number = 0;
-  for (const Contact<Scalar>& contact : problem.contacts) {
-    const int rows = contact.HasFrictionRows() ? problem.dimension : 1;
+  ForEachContact(problem, [&](int number, int row, int rows) {
+    const Contact<Scalar>& contact = problem.contacts[number];
     if (contact.kind == ContactKind::kBilateral) {
       bilateral_.push_back(row);
     } else {
@@ -40,9 +39,7 @@ void Reduction<Scalar>::Sort(const Problem& problem) {
       reduced_.contacts.push_back(slides ? Contact<Scalar>{ContactKind::kFrictionless, Scalar(0), {}}
                                          : contact);
     }
-    row += rows;
-    ++number;
-  }
+  });
 }
 
 // (24): E maps the variables, the reduced rows and then the bilateral ones, to all forces; M = A E.
@@ -54,19 +51,17 @@ void Reduction<Scalar>::ReplaceSlidingFriction(const Problem& problem) {
   for (int j = 0; j < variables; ++j) E_(j < kept ? row_of_[j] : bilateral_[j - kept], j) = Scalar(1);
   M_.resize(problem.rows(), variables);
   for (int j = 0; j < variables; ++j) M_.col(j) = problem.A.col(j < kept ? row_of_[j] : bilateral_[j - kept]);
-  int row = 0;
-  for (const Contact<Scalar>& contact : problem.contacts) {
-    if (contact.kind == ContactKind::kSliding) {
-      const auto at = std::find(row_of_.begin(), row_of_.end(), row);
-      const int j = static_cast<int>(at - row_of_.begin());
-      for (int i = 1; i < problem.dimension; ++i) {
-        const Scalar factor = -contact.mu * contact.slip[i - 1];
-        E_(row + i, j) = factor;
-        M_.col(j) += problem.A.col(row + i) * factor;
-      }
+  ForEachContact(problem, [&](int number, int row, int rows) {
+    const Contact<Scalar>& contact = problem.contacts[number];
+    if (contact.kind != ContactKind::kSliding) return;
+    const auto at = std::find(row_of_.begin(), row_of_.end(), row);
+    const int j = static_cast<int>(at - row_of_.begin());
+    for (int i = 1; i < rows; ++i) {
+      const Scalar factor = -contact.mu * contact.slip[i - 1];
+      E_(row + i, j) = factor;
+      M_.col(j) += problem.A.col(row + i) * factor;
     }
-    row += contact.HasFrictionRows() ? problem.dimension : 1;
-  }
+  });
   b_ = problem.b;
 }
 
@@ -168,5 +163,3 @@ ReductionEnd Reduction<Scalar>::Classify(const Matrix& A, const Vector& b, const
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_REDUCTION_IPP_

@@ -7,8 +7,7 @@
 // contacts in no set, and forces and accelerations are those of all rows. A problem without such contacts
 // remains as it is, and nothing is computed.
 
-#ifndef STICTION_SOLVER_PROBLEM_REMAINDER_H_
-#define STICTION_SOLVER_PROBLEM_REMAINDER_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -103,5 +102,3 @@ Pivot<Scalar> Remainder<Scalar>::Restored(Pivot<Scalar> pivot) const {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_REMAINDER_H_

@@ -5,8 +5,7 @@
 // contacts that A couples has b about 1. A problem in other units, D A D and D b, is the same problem then, and
 // its run the same run.
 
-#ifndef STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
-#define STICTION_SOLVER_PROBLEM_ROW_SCALE_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -105,5 +104,3 @@ Problem Scaled(Problem problem, const RowScale& scale) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_ROW_SCALE_H_

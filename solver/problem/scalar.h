@@ -5,8 +5,7 @@
 // comparisons, and construction from int. Branches look at signs only, through Sign(x, tol). Over
 // exact scalars the tolerance is ignored: there it is zero by construction, not by convention.
 
-#ifndef STICTION_SOLVER_PROBLEM_SCALAR_H_
-#define STICTION_SOLVER_PROBLEM_SCALAR_H_
+#pragma once
 
 #include <cmath>
 #include <cstdint>
@@ -112,5 +111,3 @@ typename Fractions<Scalar>::Integer CommonDenominator(const Values& values) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_SCALAR_H_

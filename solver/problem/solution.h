@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run of the published algorithm leaves behind: verdict, statistics, trace.
 
-#ifndef STICTION_SOLVER_PROBLEM_SOLUTION_H_
-#define STICTION_SOLVER_PROBLEM_SOLUTION_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -165,5 +164,3 @@ struct RunEnd {
 using Verdict = RunEnd<Statistics>;  // of the published algorithm, whose counters stores add up
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_SOLUTION_H_

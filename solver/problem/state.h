@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a run stands: forces, accelerations and the sets of all variables.
 
-#ifndef STICTION_SOLVER_PROBLEM_STATE_H_
-#define STICTION_SOLVER_PROBLEM_STATE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -66,5 +65,3 @@ Scale<Scalar> MakeScale(const ContactProblem<Scalar, Rows>& problem, const Toler
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_STATE_H_

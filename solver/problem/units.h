@@ -17,11 +17,9 @@
 // positive factor per contact, A -> D A D, b -> D b, f -> D^-1 f, units change as accelerations and forces do.
 // mu is never divided by. Shapes: rows. Units: m/s^2, N. Memory is kept between calls.
 
-#ifndef STICTION_SOLVER_PROBLEM_UNITS_H_
-#define STICTION_SOLVER_PROBLEM_UNITS_H_
+#pragma once
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <type_traits>
 #include <vector>
@@ -94,6 +92,13 @@ void ForEachContact(const Problem& problem, Visit visit) {
     visit(i, row, count);
     row += count;
   }
+}
+// The normal row of each contact.
+template <class Problem>
+std::vector<int> NormalRowsOf(const Problem& problem) {
+  std::vector<int> rows;
+  ForEachContact(problem, [&rows](int, int row, int) { rows.push_back(row); });
+  return rows;
 }
 
 // The length of the tangential rows of a contact: from `row` + 1 on, one or two, or none.
@@ -179,5 +184,3 @@ class LenientUnits {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PROBLEM_UNITS_H_

@@ -15,11 +15,9 @@
 // suspicion: forces are compared after rounding, and callers run the problem again exactly before they claim
 // anything.
 
-#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
-#define STICTION_SOLVER_PUBLISHED_PUBLISHED_H_
+#pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "solver/linear/direction.h"
@@ -149,5 +147,3 @@ class PublishedAlgorithm {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_H_

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for published.h, in the order in which the paper tells them.
 
-#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_IPP_
-#define STICTION_SOLVER_PUBLISHED_PUBLISHED_IPP_
+#pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/linear/direction.ipp"
 #include "solver/published/published.h"
@@ -476,5 +474,3 @@ void PublishedAlgorithm<Scalar, Rows>::Record(int driven, DriveGoal goal, const 
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_IPP_

@@ -22,8 +22,7 @@
 //             and CF, abs(fF) = mu fN in NCF, and the inequalities that limit steps) is not compared again.
 //             Two zeros are known from where the run has been: the line and the trail (readings.md, 8).
 
-#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
-#define STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -253,5 +252,3 @@ extern template class PublishedInSpace<float>;
 extern template class PublishedInSpace<double>;
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_H_

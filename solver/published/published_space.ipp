@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for published_space.h, in the order in which the paper tells them.
 
-#ifndef STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_
-#define STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "solver/linear/direction.ipp"
 #include "solver/problem/lenient.h"
@@ -918,5 +916,3 @@ void PublishedInSpace<Scalar>::RecordStep(const Step<Scalar>& step, IndexSet fro
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_PUBLISHED_SPACE_IPP_

@@ -6,8 +6,7 @@
 //   violated(row)      whether the conditions of the variable fail
 //   worse(row, other)  of two violated normals, or two violated frictions: whether `row` fails by more
 
-#ifndef STICTION_SOLVER_PUBLISHED_SCAN_H_
-#define STICTION_SOLVER_PUBLISHED_SCAN_H_
+#pragma once
 
 #include "solver/problem/options.h"
 
@@ -76,5 +75,3 @@ inline bool GivesUp(GiveUp rule, bool wants_back, bool zero, bool last_zero) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_SCAN_H_

@@ -17,8 +17,7 @@
 //             limit by what happened, not by its numbers: MeetBound tells so, until a step moves the forces. A
 //             limit whose rate has an unsure sign is left out if it would surely come later than another.
 
-#ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
-#define STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_
+#pragma once
 
 #include <algorithm>
 #include <vector>
@@ -95,5 +94,3 @@ class StepSize {
 };
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_STEP_SIZE_H_

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definitions for step_size.h.
 
-#ifndef STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
-#define STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_
+#pragma once
 
 #include "solver/linear/direction.h"
 #include "solver/published/step_size.h"
@@ -186,5 +185,3 @@ Step<Scalar> StepSize<Scalar, Rows>::Find(const Problem& problem, const RowLayou
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_SOLVER_PUBLISHED_STEP_SIZE_IPP_

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Equations over rationals: by lifting as by elimination, to the last digit.
-#include "certify/exact/lifted_equations.h"
-
 #include <catch2/catch.hpp>
 #include <random>
 

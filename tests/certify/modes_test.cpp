@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "certify/claims/no_solution.h"
+#include "certify/claims/existence.h"
 #include "certify/claims/witness.h"
 #include "certify/exact/enumerate.h"
 #include "certify/exact/farkas.h"

@@ -7,9 +7,9 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
-#include "certify/claims/no_solution.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/lemke_space.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/json.h"
 #include "solver/complete/polygon_errors.h"

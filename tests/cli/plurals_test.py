@@ -12,8 +12,8 @@ COUNTED = re.compile(rf"((?:[\w']+ )?)\{{\d?\}} ((?!of )(?:[a-z]+ )?(?:{'|'.join
 BOUNDS = ("most ", "than ", "all ", "none ")
 NEVER_ONE = {
     ("cli/scene.cpp", "independent problems"),  # "expected one"
-    ("cli/policies.cpp", "policies"), ("cli/replay.cpp", "policies"),  # the grid
-    ("cli/narration/explained.cpp", "choices"), ("cli/narration/followed.cpp", "steps"), ("cli/narration/problem_text.cpp", "rows"),
+    ("cli/methods.cpp", "policies"), ("cli/replay.cpp", "policies"),  # the grid
+    ("cli/narration/explained.cpp", "choices"), ("cli/narration/followed.cpp", "steps"), ("cli/replay.cpp", "rows"),
     ("cli/replay.cpp", "steps"), ("cli/live/live.cpp", "rows"), ("cli/slurm.cpp", "problems"), ("cli/certify.cpp", "solutions"),
     ("reports/page/page_facts.cpp", "units"), ("reports/told/facts.cpp", "contacts"), ("reports/comparison/solvers.cpp", "rows"),
     ("reports/page/rungs.cpp", "problems"),

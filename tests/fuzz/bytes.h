@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choices read from bytes: any bytes are a sequence of choices, and those that are not there are zeros.
 
-#ifndef STICTION_TESTS_FUZZ_BYTES_H_
-#define STICTION_TESTS_FUZZ_BYTES_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -43,5 +42,3 @@ class Bytes {
 };
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_BYTES_H_

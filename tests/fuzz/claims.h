@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Claims of certificates, decided anew.
 
-#ifndef STICTION_TESTS_FUZZ_CLAIMS_H_
-#define STICTION_TESTS_FUZZ_CLAIMS_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ namespace stiction::fuzz {
 std::string FaultOfClaim(const Json& certificate);
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_CLAIMS_H_

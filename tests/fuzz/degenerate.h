@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problem files at the edge of what is one: no rows, no columns, no entries, nothing that moves, jams.
 
-#ifndef STICTION_TESTS_FUZZ_DEGENERATE_H_
-#define STICTION_TESTS_FUZZ_DEGENERATE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -18,5 +17,3 @@ std::vector<std::string> DegenerateProblems();
 std::vector<std::string> FilesWithoutSizes();
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_DEGENERATE_H_

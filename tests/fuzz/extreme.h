@@ -2,8 +2,7 @@
 // Problems with dials at their extremes, made from choices. tests/setup/extremes.py turns one dial at a time
 // and judges the program from outside, a process a run; this is for millions of runs.
 
-#ifndef STICTION_TESTS_FUZZ_EXTREME_H_
-#define STICTION_TESTS_FUZZ_EXTREME_H_
+#pragma once
 
 #include "corpus/exact_problem.h"
 #include "tests/fuzz/bytes.h"
@@ -18,5 +17,3 @@ namespace stiction::fuzz {
 ExactProblem ExtremeProblem(Bytes& bytes);
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_EXTREME_H_

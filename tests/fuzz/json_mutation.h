@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // JSON that stays JSON when it is changed: what random bytes hardly ever make.
 
-#ifndef STICTION_TESTS_FUZZ_JSON_MUTATION_H_
-#define STICTION_TESTS_FUZZ_JSON_MUTATION_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -17,5 +16,3 @@ namespace stiction::fuzz {
 std::string MutatedJson(std::string_view text, Choices& choices);
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_JSON_MUTATION_H_

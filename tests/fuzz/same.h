@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether two problems are the same, number by number.
 
-#ifndef STICTION_TESTS_FUZZ_SAME_H_
-#define STICTION_TESTS_FUZZ_SAME_H_
+#pragma once
 
 #include <algorithm>
 #include <vector>
@@ -38,5 +37,3 @@ inline bool IsInDoubles(const AnyProblem& problem) {
 }
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_SAME_H_

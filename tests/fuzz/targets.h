@@ -21,8 +21,7 @@
 //   solve         choices (bytes.h) that make a problem (extreme.h) and choose a method and an arithmetic
 // clang-format on
 
-#ifndef STICTION_TESTS_FUZZ_TARGETS_H_
-#define STICTION_TESTS_FUZZ_TARGETS_H_
+#pragma once
 
 #include <optional>
 #include <span>
@@ -63,5 +62,3 @@ auto Unrefused(Read read) -> std::optional<decltype(read())> {
 }
 
 }  // namespace stiction::fuzz
-
-#endif  // STICTION_TESTS_FUZZ_TARGETS_H_

@@ -5,8 +5,7 @@
 // jams, zeros, rows without an own acceleration, contacts of every kind, units far apart, b outside the range
 // of A, and A that is unsymmetric or indefinite.
 
-#ifndef STICTION_TESTS_MODEL_DRAW_H_
-#define STICTION_TESTS_MODEL_DRAW_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -130,5 +129,3 @@ inline Case DrawScene(Choices& choices) {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_MODEL_DRAW_H_

@@ -5,8 +5,7 @@
 //
 // A fault's kind is its first word; it is shrunk only to others of the same kind.
 
-#ifndef STICTION_TESTS_MODEL_HOLD_H_
-#define STICTION_TESTS_MODEL_HOLD_H_
+#pragma once
 
 #include <fmt/format.h>
 
@@ -594,5 +593,3 @@ inline std::string Told(const Values& choices) {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_MODEL_HOLD_H_

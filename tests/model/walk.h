@@ -20,8 +20,7 @@
 //
 // A walk is several of them. `stay` does nothing: what a walk is shrunk to.
 
-#ifndef STICTION_TESTS_MODEL_WALK_H_
-#define STICTION_TESTS_MODEL_WALK_H_
+#pragma once
 
 #include <algorithm>
 #include <functional>
@@ -407,5 +406,3 @@ inline Walk DrawWalk(Choices& choices) {
 }
 
 }  // namespace stiction::testing
-
-#endif  // STICTION_TESTS_MODEL_WALK_H_

@@ -3,8 +3,7 @@
 // STICTION_MUTANT chooses, read once; without it there is none. That the place was reached is noted in the file
 // that STICTION_REACHED names, a byte for each bug, which the processes of a test share.
 
-#ifndef STICTION_TESTS_MUTATION_MUTANT_H_
-#define STICTION_TESTS_MUTATION_MUTANT_H_
+#pragma once
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -40,5 +39,3 @@ inline const bool mutants_are_read = (mutants.Read(), true);
 }  // namespace stiction::testing
 
 #define MUTANT(k) (::stiction::testing::mutants.reached[k] = 1, ::stiction::testing::mutants.chosen == (k))
-
-#endif  // STICTION_TESTS_MUTATION_MUTANT_H_

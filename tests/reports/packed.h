@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pages pack (reports/html/packed.h), as it was before.
 
-#ifndef STICTION_TESTS_REPORTS_PACKED_H_
-#define STICTION_TESTS_REPORTS_PACKED_H_
+#pragma once
 
 #include <zlib.h>
 
@@ -38,5 +37,3 @@ inline std::string Unpacked(const std::string& packed) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_TESTS_REPORTS_PACKED_H_

@@ -25,7 +25,6 @@
 #include "corpus/record/problem_file.h"
 #include "reports/animation.h"
 #include "reports/html/html.h"
-#include "reports/html/template.h"
 #include "reports/page/page.h"
 #include "reports/papers/package.h"
 #include "reports/pictures/draw.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What generators drew, and what became of it, when it was recorded: hashes, by generator.
 
-#ifndef STICTION_TESTS_SEARCH_RECORDED_H_
-#define STICTION_TESTS_SEARCH_RECORDED_H_
+#pragma once
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,5 +38,3 @@ inline Recorded RecordedOf(std::string_view generator) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_TESTS_SEARCH_RECORDED_H_

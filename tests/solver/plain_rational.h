@@ -2,8 +2,7 @@
 // A rational of whose integers nothing is said (Fractions): the solver's templates then eliminate over
 // fractions.
 
-#ifndef STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
-#define STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_
+#pragma once
 
 #include "corpus/exact_problem.h"
 
@@ -24,5 +23,3 @@ inline ContactProblem<PlainRational> Plain(const ExactProblem& problem) {
 }
 
 }  // namespace stiction
-
-#endif  // STICTION_TESTS_SOLVER_PLAIN_RATIONAL_H_

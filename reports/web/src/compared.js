@@ -100,21 +100,8 @@ function stepsPlot(rows, width, {most, floor}) {
   const title = `${rows[0].generator}, ${place(rows[0])}`;
   return p.small(
       title,
-      p.drawn(
-          {
-            width,
-            height: 194,
-            marginLeft: 54,
-            marginTop: 22,
-            marginBottom: 34,
-            marginRight: 16,
-            x: {domain: [-0.5, most + 1], label: 'steps'},
-            y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
-            marks: [
-              p.logLines([floor, 1]), p.logAxis([floor, 1], p.share), p.xAxis({tickSpacing: 45}),
-              ...sides.map(bars)
-            ]
-          },
+      p.stepsChart(
+          {width, height: 194, most, floor, bars: sides.map(bars)},
           `Steps of ${title}: ` +
               sides.map((_, i) => `${names[i]}, ${p.count(totals[i])} runs, from ${
                             stepsOf(rows.find(row => runsOf(row, i) > 0))} to ${

@@ -73,14 +73,6 @@ function drawTrust(rows, width) {
 const bars = (rows, x, floor, total, paint, width, title) => ruleX(
     rows, {x, y1: floor, y2: row => (row.runs ?? row.loops) / total, stroke: paint, strokeWidth: width, title});
 
-const histogram = {
-  height: 184,
-  marginLeft: 54,
-  marginTop: 22,
-  marginBottom: 34,
-  marginRight: 16
-};
-
 function medianOf(rows, total) {
   let below = 0;
   return rows.find(row => 2 * (below += row.runs) >= total).steps;
@@ -92,18 +84,8 @@ function stepsPlot(rows, {width, most, floor}) {
   const title = row => `${stepsOf(row)} steps: ${p.count(row.runs)} runs, ${p.share(row.runs / total)}`;
   const left = 72;  // room for 0.00001 %
   const thick = Math.max(1.4, (width - left - 6) / (most + 2) - 1);
-  const svg = p.drawn(
-      {
-        ...histogram,
-        marginLeft: left,
-        width,
-        x: {domain: [-0.5, most + 1], label: 'steps'},
-        y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
-        marks: [
-          p.logLines([floor, 1]), p.logAxis([floor, 1], p.share), p.xAxis({tickSpacing: 45}),
-          bars(rows, 'steps', floor, total, 'var(--bar)', thick, title)
-        ]
-      },
+  const svg = p.stepsChart(
+      {width, marginLeft: left, most, floor, bars: [bars(rows, 'steps', floor, total, 'var(--bar)', thick, title)]},
       `Steps per problem of ${contacts}, ${p.count(total)} runs: from ${rows[0].steps} to ${
           stepsOf(last)}, half of them ` +
           `at most ${medianOf(rows, total)}`);
@@ -128,7 +110,7 @@ function loopStepsPlot(rows, {width, most}) {
   const svg =
       p.drawn(
           {
-            ...histogram,
+            ...p.histogram,
             width,
             x: {domain: [-0.5, most + 0.5], label: 'steps of length zero in a period'},
             y: {domain: [0, Math.max(...rows.map(row => row.loops)) / total], label: 'share of loops, %'},

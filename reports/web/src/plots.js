@@ -72,6 +72,25 @@ export function drawn(options, label) {
   return svg;
 }
 
+export const histogram = {
+  height: 184,
+  marginLeft: 54,
+  marginTop: 22,
+  marginBottom: 34,
+  marginRight: 16
+};
+
+// Shares of runs by their steps: bars from the floor, on a logarithmic scale.
+export const stepsChart = ({most, floor, bars, ...frame}, label) => drawn(
+    {
+      ...histogram,
+      ...frame,
+      x: {domain: [-0.5, most + 1], label: 'steps'},
+      y: {type: 'log', domain: [floor, 1], label: 'share of runs, %'},
+      marks: [logLines([floor, 1]), logAxis([floor, 1], share), xAxis({tickSpacing: 45}), ...bars]
+    },
+    label);
+
 // A plot below its title, of those that stand beside each other.
 export const small = (title, svg) =>
     element('div', {class: 'small'}, element('p', {class: 'title'}, title), svg);
