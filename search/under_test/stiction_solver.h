@@ -2,7 +2,8 @@
 /* A solver that `stiction search --solver FILE.so` tests: a shared library with these four functions.
  * README.md. */
 
-#pragma once
+#ifndef STICTION_SOLVER_H_
+#define STICTION_SOLVER_H_
 
 #ifdef __cplusplus
 extern "C" {
