@@ -20,8 +20,8 @@ namespace stiction {
 
 // One sweep: f changes, and a = A f + b with it. Whether more than rounding moved.
 template <class Scalar>
-bool SweepOnce(const ContactProblem<Scalar>& problem, typename ContactProblem<Scalar>::Vector& f,
-               typename ContactProblem<Scalar>::Vector& a) {
+bool SweepOnce(const ContactProblem<Scalar>& problem, Answer<Scalar>& answer) {
+  auto &f = answer.f, &a = answer.a;
   bool moved = false;
   int row = 0;
   for (const Contact<Scalar>& contact : problem.contacts) {
@@ -62,7 +62,7 @@ Answer<Scalar> RunGaussSeidel(const ContactProblem<Scalar>& problem, const Reque
     if (sweeps == request.limits.pivots) answer.reason = "too many sweeps";
     if (request.limits.Stopped()) answer.reason = kStopped;
     if (!answer.reason.empty()) return answer;
-    moves = SweepOnce(problem, answer.f, answer.a);
+    moves = SweepOnce(problem, answer);
   }
 }
 
