@@ -7,6 +7,7 @@
 
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/neighbour.h"
+#include "certify/exact/solve.h"
 #include "tests/support.h"
 
 namespace stiction {

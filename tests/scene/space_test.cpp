@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "certify/exact/properties.h"
+#include "certify/exact/solve.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/record/scene_file.h"
 #include "scene/assemble.h"
