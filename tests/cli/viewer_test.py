@@ -106,6 +106,14 @@ class Joined(cli.TestCase):
             join.page("viewer", web)
         self.assertIn(r"formulas.json has no MathML of \(e^x\)", str(refused.exception))
 
+    def test_cells_mean_the_same_in_a_page_and_in_a_terminal(self):
+        page, program = [re.search(start + r"(.*?)\n?}+;\n", (cli.ROOT / file).read_text(), re.S)[1] for start, file in (
+            ("kCells = {", f"{WEB}/src/steps.js"), ("kDoes = {{", "cli/narration/narrate_path.cpp"))]
+        told = dict(re.findall(r"^ *'?(.)'?: '(.*)',?$", page, re.M))
+        self.assertEqual(told.pop("?"), "not yet")
+        self.assertEqual(told, dict(re.findall(r"{'(.)', \"(.*?)\"", program)))
+        self.assertEqual(len(told), 9)
+
     def test_the_packages_are_those_of_the_lock_file_which_names_no_address(self):
         lock = json.loads((cli.ROOT / WEB / "package-lock.json").read_text())["packages"]
         for name, package in lock.items():

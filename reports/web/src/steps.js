@@ -74,16 +74,16 @@ function sets(run, state) {
               members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
 }
 
-// What cells mean (solver/complete/cells.h), by their letter.
+// What cells mean, by their letter: as in cli/narration/narrate_path.cpp.
 const kCells = {
   '?': 'not yet',
-  B: 'parted',
+  B: 'breaks',
   S: 'sticks',
   I: 'sticks',
   '+': 'at its upper limit',
   '-': 'at its lower limit',
-  V: 'at its limit, in a corner',
-  E: 'at its limit, on an edge',
+  V: 'at a corner',
+  E: 'on an edge',
   0: 'without friction',
   H: 'held'
 };
