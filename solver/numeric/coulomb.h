@@ -113,4 +113,8 @@ class CoulombSolver {
   Counters statistics_;
 };
 
+extern template class CoulombSolver<float>;
+extern template class CoulombSolver<double>;
+extern template class CoulombSolver<double, SparseContactProblem<double>>;
+
 }  // namespace stiction

@@ -73,4 +73,7 @@ class ProximalNewton {
   Vector follows_;               // by normal row: fF / fN where friction follows the normal, or 0
 };
 
+extern template class ProximalNewton<float>;
+extern template class ProximalNewton<double>;
+
 }  // namespace stiction
