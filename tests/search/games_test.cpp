@@ -57,7 +57,7 @@ TEST_CASE("game: solutions are symmetric equilibria of its costs, and every cont
   }
 }
 
-TEST_CASE("game: all kinds are drawn; without friction its problems are definite as well") {
+TEST_CASE("game: all kinds are drawn, and without friction problems are definite as well") {
   std::set<bool> symmetric;
   for (std::uint64_t index = 0; index < 20; ++index) {
     const ExactProblem problem = DrawGame(3, index, {{0, 1}});
