@@ -220,7 +220,7 @@ bug("check_unsafe", "py-unsafe", "value <= 0", "True", "unsafe: a positive deter
 
 bug("AddFriction", "solver-drives", "force * a > 0", "force * a < 0", "friction that drives the slip is called less than its limit")
 bug("TakeOutIdle", "solver-idle", "largest > accuracy * accuracy", "false", "any force of idle contacts is none")
-bug("KeepsPromises", "solver-hypotheses", "IsSymmetric(problem) && IsPositiveSemidefinite(problem)", "IsSymmetric(problem)",
+bug("KeepsPromises", "solver-hypotheses", "MeetsAssumptions(problem)", "IsSymmetric(problem)",
     "a finding is minimized to a problem that is not semidefinite")
 bug("KeepsPromises", "solver-row", "EachRowMoves(found) && !EachRowMoves(problem)", "false", "a finding is minimized to A = 0")
 bug("FailsAlike", "solver-alike", "examined.kind == sought.kind && examined.what == sought.what",
