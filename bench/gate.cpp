@@ -42,7 +42,7 @@
 #include "bench/output.h"
 #include "bench/suite.h"
 #include "certify/exact/neighbour.h"
-#include "certify/request/solve_in.h"
+#include "certify/request/request.h"
 #include "corpus/exit_code.h"
 #include "corpus/intervals.h"
 #include "corpus/json.h"

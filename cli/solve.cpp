@@ -21,7 +21,6 @@
 #include "certify/exact/newton_bodies.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
-#include "certify/request/solve_in.h"
 #include "cli/command_line.h"
 #include "cli/narration/followed.h"
 #include "cli/narration/narrate_text.h"

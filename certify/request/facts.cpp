@@ -15,7 +15,7 @@
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/rest.h"
 #include "certify/request/cascade.h"
-#include "certify/request/solve_in.h"
+#include "certify/request/request.h"
 #include "corpus/record/asymmetry.h"
 #include "solver/problem/errors.h"
 

@@ -14,6 +14,17 @@
 
 namespace stiction {
 
+// Why a method is not to be had so, and what is; empty if it is.
+std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic);
+
+// Where nobody asks for an arithmetic: exact, unless the method is not built so, or problem and method are of
+// the kind that doubles are for; then double or interval. And why, in words.
+struct ArithmeticChoice {
+  Arithmetic arithmetic = Arithmetic::kExact;
+  std::string why;
+};
+ArithmeticChoice UsualArithmetic(std::string_view method, const AnyProblem& problem);
+
 // Of `request`, method, arithmetic, policy and law are set by their names here.
 struct Wanted {
   std::string method{kAutomatic};

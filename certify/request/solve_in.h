@@ -11,8 +11,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,21 +36,7 @@ const std::vector<MethodFacts>& AllMethods();
 // The row of that name; null if there is none.
 const MethodFacts* FindMethodFacts(std::string_view name);
 
-// The arithmetic of that name; empty if there is none.
-std::optional<Arithmetic> FindArithmetic(std::string_view name);
-
-// Why a method is not to be had so, and what is; empty if it is.
-std::string Refusal(std::string_view method, int dimension, Arithmetic arithmetic);
-
-// Where nobody asks for an arithmetic: exact, unless the method is not built so, or problem and method are of
-// the kind that doubles are for; then double or interval. And why, in words.
-struct ArithmeticChoice {
-  Arithmetic arithmetic = Arithmetic::kExact;
-  std::string why;
-};
-ArithmeticChoice UsualArithmetic(std::string_view method, const AnyProblem& problem);
-
-// Requires Refusal(...).empty(), and TakesEntries(...) of a problem that stays sparse. RangeError
+// Requires Refusal(...).empty() (request.h), and TakesEntries(...) of a problem that stays sparse. RangeError
 // (corpus/rounded.h) for a number that the arithmetic does not hold; InputError where the published algorithm
 // in space has no such reading. `watch` starts anew once the problem is in the numbers of a floating
 // arithmetic.

@@ -17,7 +17,6 @@
 #include "certify/exact/newton_bodies.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
-#include "certify/request/solve_in.h"
 #include "cli/narration/outcome_text.h"
 #include "cli/narration/published_ends.h"
 #include "cli/narration/safety.h"

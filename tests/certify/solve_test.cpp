@@ -5,7 +5,7 @@
 
 #include "certify/exact/answer_json.h"
 #include "certify/exact/verify_solution.h"
-#include "certify/request/solve_in.h"
+#include "certify/request/request.h"
 #include "corpus/rounded.h"
 #include "search/generators/choices.h"
 #include "tests/judge.h"

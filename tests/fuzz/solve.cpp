@@ -7,7 +7,7 @@
 
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/properties.h"
-#include "certify/request/solve_in.h"
+#include "certify/request/request.h"
 #include "solver/problem/check.h"
 #include "tests/fuzz/extreme.h"
 #include "tests/fuzz/targets.h"

@@ -20,6 +20,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
 #include "certify/request/entries.h"
+#include "certify/request/request.h"
 #include "corpus/formats/formats.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
