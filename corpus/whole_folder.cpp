@@ -198,11 +198,15 @@ fs::path WholeFolder::Commit() {
   return aside;
 }
 
+// A list that there is is replaced at once: a process that is killed leaves one.
 void WholeFolder::WriteList() const {
-  fs::remove(building_ / kList);
   std::string list = writer_ + "\n";
-  for (const fs::path& name : Entries(building_, false)) list += name.string() + "\n";
-  Write(kList, list);
+  for (const fs::path& name : Entries(building_, false))
+    if (name != kList) list += name.string() + "\n";
+  const bool is_first = !fs::exists(fs::symlink_status(building_ / kList));
+  const std::string name = is_first ? kList : std::string(kList) + ".new";
+  Write(name, list);
+  if (!is_first) fs::rename(building_ / name, building_ / kList);
 }
 
 fs::path WholeFolder::SetAside() const {
