@@ -7,7 +7,6 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -111,21 +110,4 @@ typename Fractions<Scalar>::Integer CommonDenominator(const Values& values) {
   return common;
 }
 
-// Of a matrix: that its numbers are of no processor.
-template <class Matrix>
-concept HasOtherNumbers = !kIsFloatingPoint<typename Matrix::Scalar>;
-
 }  // namespace stiction
-
-// Their products are formed entry by entry: Eigen's kernels of blocks and packets take seconds of compilation
-// for each of these numbers, and gain nothing.
-namespace Eigen::internal {
-
-template <stiction::HasOtherNumbers Lhs, class Rhs>
-struct generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct>
-    : generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, CoeffBasedProductMode> {};
-template <stiction::HasOtherNumbers Lhs, class Rhs>
-struct generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemvProduct>
-    : generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, CoeffBasedProductMode> {};
-
-}  // namespace Eigen::internal
