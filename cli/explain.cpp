@@ -7,7 +7,6 @@
 #include "cli/narration/explained.h"
 #include "cli/program.h"
 #include "cli/shared.h"
-#include "corpus/json.h"
 
 namespace stiction {
 namespace {
@@ -17,7 +16,7 @@ struct ExplainVerb : ExplainOptions {
 };
 
 int RunExplain(const ExplainVerb& o) {
-  const Json found = Explained(ReadProblem(o.file, kAnyRows), o);
+  const SharedJson found = Explained(ReadProblem(o.file, kAnyRows), o);
   std::cout << (o.json ? JsonText(found) + "\n" : AsTyped(ExplainedText(found)));
   return kExitDone;
 }

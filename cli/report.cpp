@@ -18,7 +18,6 @@
 #include "cli/records.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/solvers.h"
 #include "reports/papers/package.h"

@@ -404,7 +404,7 @@ py::tuple ExplainProblem(PythonProblem& problem, const std::string& file, int co
   const auto [found, text] = Interruptible(0, [&](const std::atomic<bool>* stop) {
     options.limits.stop = stop;
     const FixedTextWidth width(static_cast<std::size_t>(columns));
-    Json json = Explained(problem.file(), options);
+    Json json = *Explained(problem.file(), options);
     std::string told = ExplainedText(json);
     return std::make_pair(std::move(json), std::move(told));
   });

@@ -225,7 +225,7 @@ Json NextOf(const Json& found, const std::string& file) {
 
 }  // namespace
 
-Json Explained(const ProblemFile& file, const ExplainOptions& o) {
+SharedJson Explained(const ProblemFile& file, const ExplainOptions& o) {
   Json found = {{"file", o.file}};
   AddContacts(file.problem, found);
   found["survey"] = Surveyed(file.problem, o.limits);

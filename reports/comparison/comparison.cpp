@@ -333,7 +333,7 @@ Table ComparisonTable(const Comparison& comparison) {
   return table;
 }
 
-Json ComparisonToJson(const Comparison& comparison) {
+SharedJson ComparisonToJson(const Comparison& comparison) {
   const auto trials = [](const Ratio& trials) { return Json{{"count", trials.count}, {"of", trials.of}}; };
   const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
   Json rates = Json::array(), only_a = Json::array(), only_b = Json::array();
@@ -350,11 +350,11 @@ Json ComparisonToJson(const Comparison& comparison) {
   }
   for (const TallyKey& key : comparison.only_a) only_a.push_back(ToJson(key));
   for (const TallyKey& key : comparison.only_b) only_b.push_back(ToJson(key));
-  return {{"differences", comparison.differences},
-          {"tests", comparison.tests},
-          {"rates", rates},
-          {"only_a", only_a},
-          {"only_b", only_b}};
+  return Json{{"differences", comparison.differences},
+              {"tests", comparison.tests},
+              {"rates", rates},
+              {"only_a", only_a},
+              {"only_b", only_b}};
 }
 
 Table ComparisonStepsTable(const Comparison& comparison) {

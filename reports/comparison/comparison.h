@@ -68,7 +68,7 @@ std::string ComparisonText(const Comparison& comparison, const std::string& file
 // A row per rate that was compared.
 Table ComparisonTable(const Comparison& comparison);
 // Every rate, with what differs by design, and what one alone has.
-Json ComparisonToJson(const Comparison& comparison);
+SharedJson ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
 Table ComparisonStepsTable(const Comparison& comparison);
 

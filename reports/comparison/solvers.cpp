@@ -178,7 +178,7 @@ Told Tell(const SolversCompared& c) {
   return Tell(kSolversTxt, facts, {"text", "page"});
 }
 
-Json SolversToJson(const SolversCompared& c) {
+SharedJson SolversToJson(const SolversCompared& c) {
   return {{"differences", c.differences},
           {"solvers", ToJson(c.solvers)},
           {"failures", ToJson(c.failures)},

@@ -29,7 +29,7 @@ SolversCompared CompareSolvers(const std::vector<Store>& stores, const std::vect
 // For `text` and `page` (told/told.h).
 Told Tell(const SolversCompared& compared);
 // The tables as columns and rows.
-Json SolversToJson(const SolversCompared& compared);
+SharedJson SolversToJson(const SolversCompared& compared);
 // index.html, solvers.txt, a CSV per table and SHA256SUMS, as a whole, as WriteComparison (comparison.h).
 std::filesystem::path WriteSolvers(const SolversCompared& compared, const std::filesystem::path& directory,
                                    Occupied occupied = Occupied::kRefused);

@@ -105,7 +105,7 @@ bool FuzzEvery(std::string_view bytes) {
   TakeMethods(file, source);
   TakeEntries(file.problem);
   RequireJson(Surveyed(file.problem, kLimits), "survey");
-  const Json explained = Explained(file, {source, kLimits});
+  const Json explained = *Explained(file, {source, kLimits});
   RequireJson(explained, "explain");
   STICTION_CHECK(!ExplainedText(explained).empty(), "nothing to say of a problem");
   return true;

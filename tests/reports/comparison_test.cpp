@@ -285,7 +285,7 @@ TEST_CASE("comparison: as JSON it has every rate that the table has, and what on
   Record b = RecordOf(2000, 40, 9);
   b.tallies[{"scenes", 5, "paper"}].problems = 77;
   const Comparison c = Compared(scratch, RecordOf(1000, 3, 6), b);
-  const Json json = ComparisonToJson(c);
+  const Json json = *ComparisonToJson(c);
   REQUIRE(json["rates"].size() == c.rates.size());
   for (std::size_t i = 0; i < c.rates.size(); ++i) {
     const Json& row = json["rates"][i];
