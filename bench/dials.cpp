@@ -13,7 +13,7 @@
 #include "certify/exact/exact.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "corpus/rounded.h"
 #include "search/generators/exponential.h"
@@ -564,13 +564,13 @@ std::vector<Source> GeneratorSources(const std::vector<int>& sizes) {
 int BenchProblems(const BenchOptions& o) {
   for (const Source& source :
        o.contacts.empty() ? DialSources(Dials::kLadder, o.families) : GeneratorSources(o.contacts)) {
-    Json problems = Json::array();
+    std::vector<SharedJson> problems;
     for (std::int64_t index = 0; index < o.problems.value_or(25); ++index)
       problems.push_back(ProblemToJson(source.make(o.seed, index)));
-    std::cout << JsonText({{"family", source.family},
-                           {"setting", source.setting},
-                           {"has_solution", source.has_solution},
-                           {"problems", std::move(problems)}})
+    std::cout << JsonText(SharedJson{{"family", source.family},
+                                     {"setting", source.setting},
+                                     {"has_solution", source.has_solution},
+                                     {"problems", std::move(problems)}})
               << std::endl;
   }
   return kExitDone;

@@ -200,7 +200,7 @@ BenchTable TableBy(const std::string& key, const std::vector<GateCell>& cells,
     else
       sum->second.Add(cell);
   }
-  BenchTable table{"by-" + key, "By " + key, Json::array()};
+  BenchTable table{"by-" + key, "By " + key};
   for (const auto& [name, counts] : sums) table.rows.push_back(TableRow(key, name, counts));
   return table;
 }

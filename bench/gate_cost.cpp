@@ -16,7 +16,7 @@
 #include "bench/suite.h"
 #include "corpus/exit_code.h"
 #include "corpus/input_error.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/order_statistics.h"
 #include "corpus/stopwatch.h"
 #include "search/generators/choices.h"
@@ -67,7 +67,7 @@ double MicrosecondsOf(const std::vector<Judged>& problems, Call call) {
   return 1e6 * watch.Seconds() / static_cast<double>(problems.size());
 }
 
-Json Row(int contacts, const BenchOptions& options) {
+SharedJson Row(int contacts, const BenchOptions& options) {
   const std::int64_t most = contacts <= 10 ? 400 : contacts <= 30 ? 100 : 20;
   const auto problems = SolvedProblems(contacts, std::min(options.problems.value_or(most), most), options.seed);
   if (problems.empty())
@@ -114,7 +114,7 @@ int BenchGateCost(const BenchOptions& options) {
   BenchTable table{"gate-cost", "microseconds a problem of the plane: LU of A with one solve, and the gate"};
   for (const int contacts : sizes) table.rows.push_back(Row(contacts, options));
   if (options.json) {
-    std::cout << JsonText({{"suite", options.suite}, {"seed", options.seed}, {table.name, table.rows}}) << "\n";
+    std::cout << JsonText(SharedJson{{"suite", options.suite}, {"seed", options.seed}, {table.name, table.rows}}) << "\n";
   } else {
     Print(table);
   }

@@ -42,14 +42,14 @@ void Print(const BenchTable& table) {
   if (table.rows.empty()) return;
   std::vector<std::string> head;
   std::size_t names = 0;
-  for (const auto& [key, value] : table.rows.front().items()) {
+  for (const auto& [key, value] : table.rows.front()->items()) {
     names += value.is_string() && names == head.size();
     head.push_back(key);
   }
   TextTable text(head, names);
-  for (const Json& row : table.rows) {
+  for (const SharedJson& row : table.rows) {
     std::vector<std::string> cells;
-    for (const Json& cell : row) cells.push_back(CellText(cell));
+    for (const Json& cell : *row) cells.push_back(CellText(cell));
     text.AddRow(std::move(cells));
   }
   fmt::print("{}", text.Done());

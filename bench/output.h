@@ -6,15 +6,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
 // Rows are objects with the same keys.
 struct BenchTable {
   std::string name, title;
-  Json rows = Json::array();
+  std::vector<SharedJson> rows = {};
 };
 
 // On standard output. In cells, objects count by name; arrays are quartiles.

@@ -26,7 +26,7 @@
 #include "bench/peak.h"
 #include "bench/suite.h"
 #include "corpus/exit_code.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/order_statistics.h"
 #include "corpus/record/work.h"
 #include "corpus/stopwatch.h"
@@ -43,7 +43,7 @@ constexpr std::int64_t kProblems = 200'000;  // of a run at two contacts
 
 double OwnSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
-Json ToJson(const Quartiles& s) { return {s.least, s.median, s.most}; }
+std::vector<double> ToJson(const Quartiles& s) { return {s.least, s.median, s.most}; }
 
 // ---- Rates -----------------------------------------------------------------------------------
 
@@ -70,8 +70,7 @@ Quartiles SearchRate(GeneratorId generator, int contacts, InstructionSet lanes, 
 
 BenchTable MeasureRates(const BenchOptions& o) {
   const std::vector<int> sizes = o.contacts.empty() ? std::vector<int>{2, 3, 5} : o.contacts;
-  BenchTable table{"rates", "Problems a second of processor time, one thread: median (least - most)",
-                   Json::array()};
+  BenchTable table{"rates", "Problems a second of processor time, one thread: median (least - most)"};
   for (const GeneratorRow& row : Generators()) {
     if (!o.generator.empty() && row.name != o.generator) continue;
     for (const int contacts : sizes)
@@ -84,14 +83,14 @@ BenchTable MeasureRates(const BenchOptions& o) {
 }
 
 BenchTable MeasureLanes(const BenchOptions& o) {
-  BenchTable table{"lanes", "The same by instruction set; none: one problem after the other", Json::array()};
+  BenchTable table{"lanes", "The same by instruction set; none: one problem after the other"};
   for (const GeneratorRow& row : Generators()) {
     if (!row.IsPlain() || static_cast<int>(row.id) >= kOrdinaryGeneratorCount) continue;
     if (!o.generator.empty() && row.name != o.generator) continue;
     for (const int contacts : {2, 3, 4}) {
-      Json line = {{"generator", row.name}, {"contacts", contacts}};
+      SharedJson line = {{"generator", row.name}, {"contacts", contacts}};
       for (const InstructionSet set : InstructionSets())
-        line[std::string(Name(set))] = ToJson(SearchRate(row.id, contacts, set, o));
+        line.Add({{Name(set), ToJson(SearchRate(row.id, contacts, set, o))}});
       table.rows.push_back(std::move(line));
     }
   }
@@ -145,13 +144,13 @@ Mix RunMix(const Campaign& campaign, int threads) {
   return all;
 }
 
-Json MixRow(const char* generators, const Mix& run) {
-  Json row = {{"generators", generators},
-              {"problems", run.problems},
-              {"problems a second", static_cast<double>(run.problems) / run.processor}};
+SharedJson MixRow(const char* generators, const Mix& run) {
+  SharedJson row = {{"generators", generators},
+                    {"problems", run.problems},
+                    {"problems a second", static_cast<double>(run.problems) / run.processor}};
   const double all = static_cast<double>(std::max<std::int64_t>(1, run.work.time.Total()));
   ForEachPart(run.work.time, [&](const char* name, const char*, std::int64_t part) {
-    row[name] = static_cast<double>(part) / all;
+    row.Add({{name, static_cast<double>(part) / all}});
   });
   return row;
 }
@@ -161,15 +160,14 @@ std::vector<BenchTable> MeasureMix(const BenchOptions& o) {
   const Mix one = RunMix(campaign, 1), two = RunMix(campaign, 2);
   BenchTable mix{"mix",
                  "A campaign that names nothing, without finishing, and integers at two contacts: shares of "
-                 "the processor time",
-                 Json::array()};
+                 "the processor time"};
   Campaign integers = campaign;
   integers.generators = {GeneratorId::kIntegers};
   integers.contacts = {2};
   integers.unit_problems = o.problems.value_or(kProblems);
   mix.rows.push_back(MixRow("all", one));
   mix.rows.push_back(MixRow("integers", RunMix(integers, 1)));
-  BenchTable threads{"threads", "Its units shared by threads, in wall-clock time", Json::array()};
+  BenchTable threads{"threads", "Its units shared by threads, in wall-clock time"};
   for (const auto& [count, run] : {std::pair{1, one}, {2, two}})
     threads.rows.push_back(
         {{"threads", count},
@@ -214,8 +212,7 @@ BenchTable MeasureStore(const BenchOptions& o) {
   std::filesystem::remove_all(folder);
   const double mean = std::accumulate(kept.begin(), kept.end(), 0.0) / static_cast<double>(kUnits);
   const double most = *std::max_element(kept.begin(), kept.end());
-  BenchTable table{"store", "Milliseconds of a unit of the default size, and of these with the store",
-                   Json::array()};
+  BenchTable table{"store", "Milliseconds of a unit of the default size, and of these with the store"};
   table.rows.push_back({{"a unit", 1e3 * a_unit},
                         {"with the store, mean", 1e3 * mean},
                         {"median", 1e3 * QuartilesOf(kept).median},
@@ -260,8 +257,7 @@ BenchTable MeasureRoofline(const BenchOptions& o) {
   const double measured = SearchRate(GeneratorId::kIntegers, 2, BestInstructionSet(), o).median;
   BenchTable table{"roofline",
                    fmt::format("One problem of integers, two contacts: what {} allows, and what is reached",
-                               Name(BestInstructionSet())),
-                   Json::array()};
+                               Name(BestInstructionSet()))};
   const auto add = [&](const char* what, double of_one, double most) {
     table.rows.push_back({{"what", what},
                           {"steps", steps / kCounted},
@@ -300,8 +296,8 @@ int BenchSearch(const BenchOptions& o) {
     take(MeasureRoofline(o));
   }
   if (o.json) {
-    Json json = Json::object();
-    for (const BenchTable& table : tables) json[table.name] = table.rows;
+    SharedJson json = SharedJson{};
+    for (const BenchTable& table : tables) json.Add({{table.name, table.rows}});
     std::cout << JsonText(json) << "\n";
   }
   return kExitDone;

@@ -19,7 +19,7 @@
 #include "cli/words.h"
 #include "corpus/atomic_file.h"
 #include "corpus/exit_code.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/named_rows.h"
 #include "corpus/text_template.h"
 #include "search/campaign.h"
@@ -106,14 +106,14 @@ std::string_view NameOf(RowKind kind) {
   return kind == RowKind::kPositional ? "positional" : kind == RowKind::kOption ? "option" : "flag";
 }
 
-Json RowInJson(const OptionRow& row) {
-  Json json = {{"kind", NameOf(row.kind)},     {"names", row.Spellings()},
-               {"type", row.TypeName()},       {"help", row.help},
-               {"required", row.required},     {"repeated", row.IsRepeated()},
-               {"default", row.default_value}, {"choices", Json::array()}};
+SharedJson RowInJson(const OptionRow& row) {
+  std::vector<SharedJson> choices;
   for (const AllowedValue& choice : row.choices)
-    json["choices"].push_back({{"name", choice.name}, {"meaning", choice.meaning}});
-  return json;
+    choices.push_back({{"name", choice.name}, {"meaning", choice.meaning}});
+  return {{"kind", NameOf(row.kind)},     {"names", row.Spellings()},
+          {"type", row.TypeName()},       {"help", row.help},
+          {"required", row.required},     {"repeated", row.IsRepeated()},
+          {"default", row.default_value}, {"choices", choices}};
 }
 
 // "stiction VERSION" of "stiction VERSION COMMIT, ..."
@@ -137,7 +137,7 @@ std::string ManPage(const CommandLine& program, bool of_bench) {
       rows += VerbInMan(verb);
     }
   }
-  for (const Json& word : AllWords()) words += Paragraph(word["word"].get<std::string>(), MeaningOf(word));
+  for (const auto& [word, meaning] : AllWords()) words += Paragraph(word, meaning);
   const std::string purpose = of_bench ? RowNamed(program.verbs, "bench")->purpose
                                        : program.purpose.substr(program.purpose.find(' ') + 1);
   Blanks blanks = {{{"VERSION", Escaped(NameAndNumber(program.version))},
@@ -162,15 +162,15 @@ std::string BashCompletion(const CommandLine& program) {
 }
 
 // Verbs with their rows, as a program reads them.
-Json TablesInJson(const CommandLine& program) {
-  Json verbs = Json::array();
+SharedJson TablesInJson(const CommandLine& program) {
+  std::vector<SharedJson> verbs;
   for (const Verb& verb : program.verbs) {
-    Json rows = Json::array();
+    std::vector<SharedJson> rows;
     for (const OptionRow& row : verb.rows) rows.push_back(RowInJson(row));
     verbs.push_back(
         {{"verb", verb.name}, {"group", verb.group}, {"purpose", verb.purpose}, {"words", std::move(rows)}});
   }
-  return verbs;
+  return SharedJson(verbs);
 }
 
 // ---- The verb ----
@@ -189,7 +189,7 @@ std::string TextIn(const std::string& format, const CommandLine& program) {
 
 // A file VERB.schema.json for each verb, and one for campaign files.
 void WriteSchemas(const std::string& folder, const CommandLine& program) {
-  const auto write = [&folder](const std::string& name, const Json& schema) {
+  const auto write = [&folder](const std::string& name, const SharedJson& schema) {
     WriteText(fmt::format("{}/{}.schema.json", folder, name), JsonText(schema, 1) + "\n");
   };
   std::filesystem::create_directories(folder);

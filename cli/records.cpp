@@ -12,7 +12,7 @@
 #include "cli/shared.h"
 #include "cli/version.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/named_rows.h"
 #include "search/adversary/record.h"
 #include "search/campaign.h"
@@ -67,21 +67,21 @@ int Add(const RecordsVerb& o) {
 int RunRecords(const RecordsVerb& o) {
   if (!o.add.empty()) return Add(o);
   int faults = 0;
-  Json rows = Json::array();
+  std::vector<SharedJson> rows;
   for (const FrontierRecord& record : ReadRecords(FolderOf(o))) {
     const std::string fault = o.check ? FaultOf(record, o.limits) : "";
     faults += !fault.empty();
-    Json row = {{"frontier", record.frontier},
+    SharedJson row = {{"frontier", record.frontier},
                 {"what", record.what},
                 {"objective", record.objective->name},
                 {"value", ToString(record.value)},
                 {"status", record.status},
                 {"command", record.command},
                 {"processor_seconds", record.processor_seconds},
-                {"random", record.random_value ? Json(ToString(*record.random_value)) : Json()},
+                {"random", record.random_value ? SharedJson(ToString(*record.random_value)) : SharedJson()},
                 {"random_evaluations", record.random_evaluations},
                 {"random_command", record.random_command}};
-    if (o.check) row["fault"] = fault.empty() ? Json() : Json(fault);
+    if (o.check) row.Add({{"fault", fault.empty() ? SharedJson() : SharedJson(fault)}});
     rows.push_back(std::move(row));
     if (o.json) continue;
     Tell("{}: {}, {}, {}; random: {} of {}{}\n    {}\n", record.frontier, Shown(record.value),
@@ -92,7 +92,7 @@ int RunRecords(const RecordsVerb& o) {
                          : "; DOES NOT HOLD: " + fault,
          record.what);
   }
-  if (o.json) std::cout << JsonText(rows) << "\n";
+  if (o.json) std::cout << JsonText(SharedJson(rows)) << "\n";
   return faults == 0 ? kExitDone : kExitNotSo;
 }
 

@@ -15,7 +15,7 @@
 #include "cli/convert.h"
 #include "cli/shared.h"
 #include "corpus/grouped.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/output_error.h"
 #include "corpus/record/scene_file.h"
 #include "corpus/record/scene_problems.h"
@@ -80,7 +80,8 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const auto model = Assemble(file.scene, contacts, o.AtLevel(), !o.full);
   if (!o.given.empty()) WriteText(o.given, Print(WithGivenContacts(file, contacts)));
   std::string text;
-  Json written = Json::array(), explained = Json::array();
+  std::vector<SharedJson> written;
+  std::vector<std::string> explained;
   for (const int i : model.colliding) {
     if (o.AtLevel() == Level::kForces) {
       std::cerr << fmt::format(
@@ -110,7 +111,7 @@ int RunAssemble(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
       explained.push_back(line);
     }
   }
-  SayWhatWasDone(o.output, o.json, text, Json{{"problems", written}, {"explained", explained}});
+  SayWhatWasDone(o.output, o.json, text, {{"problems", written}, {"explained", explained}});
   return kExitDone;
 }
 
@@ -124,7 +125,7 @@ struct SimulateCommand {
   bool full = false, svg = true, replace = false, json = false;
 };
 
-ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const Json& origin) {
+ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const SharedJson& origin) {
   ProblemFile file;
   file.name = name;
   file.origin = origin;
@@ -145,7 +146,7 @@ ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& 
 
 void WriteProblem(const fs::path& file, const std::string& scene, std::int64_t frame, const char* level,
                   const ContactProblem<double>& problem) {
-  const Json origin = {
+  const SharedJson origin = {
       {"scene", scene}, {"frame", frame}, {"level", level}, {"rounded", "J, A and b to doubles"}};
   WriteText(file.string(), Print(ExactFile(problem, file.stem().string(), origin)));
 }
@@ -191,7 +192,7 @@ class SimulationWriter {
     }
     for (std::size_t i = 0; i < islands.size(); ++i) {
       const std::string name = fmt::format("{}-{:05}-{}", simulation.scene().name, frame, i + 1);
-      const Json origin = {{"scene", simulation.scene().name},
+      const SharedJson origin = {{"scene", simulation.scene().name},
                            {"frame", frame},
                            {"level", "forces"},
                            {"rounded", "J, A and b to doubles"}};
@@ -318,9 +319,10 @@ std::string MotionText(const SceneIn<Kind, double>& scene, std::vector<BodyMotio
 }
 
 // By the names of their table.
-Json StatisticsToJson(const SimulationStatistics& statistics) {
-  Json json = Json::object();
-  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) { json[name] = value; });
+SharedJson StatisticsToJson(const SimulationStatistics& statistics) {
+  SharedJson json;
+  ForEachField(statistics,
+               [&json](const char* name, const char*, std::int64_t value) { json.Add({{name, value}}); });
   return json;
 }
 
@@ -335,12 +337,11 @@ void WriteSummary(const SimulationIn<Kind>& simulation, const std::vector<BodyMo
   text += fmt::format("worst drift of joints {:.3g}, overlap {:.3g} m\n{}{}\n", worst.joints, worst.overlap,
                       MotionText(simulation.scene(), motions), animation);
   SayWhatWasDone(o.output, o.json, text,
-                 Json{{"written", Json::array({o.output})},
-                      {"animation", animation},
-                      {"statistics", StatisticsToJson(simulation.statistics())},
-                      {"worst_drift",
-                       {{"joints_m", NumberToJson(worst.joints)}, {"overlap_m", NumberToJson(worst.overlap)}}},
-                      {"motion", MotionsToJson(simulation.scene(), motions)}});
+                 {{"written", std::vector{o.output}},
+                  {"animation", animation},
+                  {"statistics", StatisticsToJson(simulation.statistics())},
+                  {"worst_drift", SharedJson{{"joints_m", worst.joints}, {"overlap_m", worst.overlap}}},
+                  {"motion", MotionsToJson(simulation.scene(), motions)}});
 }
 
 template <class Kind>
@@ -415,8 +416,8 @@ int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const std::string svg = DrawExplained(scene, view, touches, marks.forces, newton);
   const std::string end = fs::path(o.output).extension();
   WriteText(o.output, end == ".png" || end == ".pdf" ? Converted(svg, end.substr(1)) : svg);
-  const Json done = {
-      {"written", Json::array({o.output})}, {"contacts", touches.size()}, {"forces", marks.forces.size()}};
+  const SharedJson done = {
+      {"written", std::vector{o.output}}, {"contacts", touches.size()}, {"forces", marks.forces.size()}};
   if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }

@@ -253,7 +253,7 @@ const std::vector<NamedShape>& NamedShapes() {
   return shapes;
 }
 
-Json SchemaOf(std::string_view title, std::string_view description, std::string_view shape) {
+SharedJson SchemaOf(std::string_view title, std::string_view description, std::string_view shape) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", title},
                  {"description", description}};

@@ -16,10 +16,11 @@
 
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "corpus/json_text.h"
 
 namespace stiction {
 
@@ -30,6 +31,6 @@ struct NamedShape {
 const std::vector<NamedShape>& NamedShapes();
 
 // The whole schema (draft 2020-12) of a shape, with those that it names.
-nlohmann::ordered_json SchemaOf(std::string_view title, std::string_view description, std::string_view shape);
+SharedJson SchemaOf(std::string_view title, std::string_view description, std::string_view shape);
 
 }  // namespace stiction

@@ -470,13 +470,15 @@ ProblemFile StoredFile(const ProblemVerb& o) {
 ProblemFile SceneFileOf(const ProblemVerb& o) {
   const std::string source = o.store + ":" + o.unit;
   const auto named = FindNamed(source);
-  const Json facts = named ? ParseJson(named->finding.facts, source) : Json();
-  if (!facts.contains("scene"))
+  const bool has_facts = named && !named->finding.facts.empty();
+  const JsonPlace facts(has_facts ? named->finding.facts : "{}", source);
+  const auto place = facts.Optional("scene");
+  if (!place)
     throw InputError(
         source +
         ": found none, expected a scene: a finding of search --solver has one when it is finished, "
         "where its generator makes scenes and one coefficient of friction shows it");
-  const Candidate scene = CandidateFromJson(JsonPlace(facts["scene"], source + ": scene", ""));
+  const Candidate scene = CandidateFromJson(*place);
   const Campaign campaign = CampaignOf(Store::OpenToRead(named->store).identity(), o.store);
   return PosedFileOf(scene, campaign.solver.law, named->finding.signature + "-scene");
 }
@@ -500,8 +502,8 @@ int RunProblem(const ProblemVerb& o) {
                            : stored     ? StoredFile(o)
                                         : ExponentialFile(*o.exponential, o.scaled);
   WriteText(o.output, Print(file));
-  const Json done = {
-      {"written", Json::array({o.output})}, {"contacts", file.problem.contacts().size()}, {"name", file.name}};
+  const SharedJson done = {
+      {"written", std::vector{o.output}}, {"contacts", file.problem.contacts().size()}, {"name", file.name}};
   if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }

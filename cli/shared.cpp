@@ -9,7 +9,7 @@
 
 #include "certify/request/request.h"
 #include "cli/help.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/named_rows.h"
 
 namespace stiction {

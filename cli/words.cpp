@@ -12,28 +12,40 @@
 #include "cli/help.h"
 #include "cli/words_json.h"
 #include "corpus/exit_code.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 
-const Json& AllWords() {
-  static const Json words = ParseJson({reinterpret_cast<const char*>(kWordsJson), sizeof kWordsJson}, "words");
-  return words;
+namespace {
+
+const JsonPlace& Table() {
+  static const std::string source = "words";
+  static const JsonPlace table({reinterpret_cast<const char*>(kWordsJson), sizeof kWordsJson}, source);
+  return table;
 }
 
-std::string MeaningOf(const Json& word) {
-  const auto source = word["source"].get<std::string>();
-  return word["meaning"].get<std::string>() + (source.empty() ? "" : fmt::format(" ({})", source));
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& AllWords() {
+  static const auto words = [] {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (std::size_t i = 0; i < Table().Size("a list"); ++i) {
+      const JsonPlace row = Table()[i];
+      const auto text = [&row](const char* key) { return row.Required(key, "text").Text("text"); };
+      const std::string source = text("source");
+      all.emplace_back(text("word"), text("meaning") + (source.empty() ? "" : fmt::format(" ({})", source)));
+    }
+    return all;
+  }();
+  return words;
 }
 
 namespace {
 
-std::string TextOf(const Json& word) { return HelpEntry(word["word"].get<std::string>(), MeaningOf(word)); }
-
 // "start, period" -> both.
-std::vector<std::string_view> NamesIn(const Json& word) {
+std::vector<std::string_view> NamesIn(std::string_view rest) {
   std::vector<std::string_view> names;
-  for (std::string_view rest = word["word"].get_ref<const std::string&>(); !rest.empty();) {
+  while (!rest.empty()) {
     const std::size_t comma = std::min(rest.find(", "), rest.size());
     names.push_back(rest.substr(0, comma));
     rest.remove_prefix(std::min(comma + 2, rest.size()));
@@ -55,10 +67,10 @@ bool StandsIn(std::string_view text, std::string_view word) {
 
 int List(const bool& in_json) {
   if (in_json) {
-    std::cout << JsonText(AllWords()) << "\n";
+    std::cout << JsonText(Table().json()) << "\n";
     return kExitDone;
   }
-  for (const Json& word : AllWords()) std::cout << TextOf(word);
+  for (const auto& [word, meaning] : AllWords()) std::cout << HelpEntry(word, meaning);
   std::cout << "\nNumbers in brackets are sections of the paper.\n";
   return kExitDone;
 }
@@ -67,9 +79,9 @@ int List(const bool& in_json) {
 
 std::string GlossaryOf(std::string_view text) {
   std::string glossary;
-  for (const Json& word : AllWords()) {
+  for (const auto& [word, meaning] : AllWords()) {
     const auto stands = [text](std::string_view name) { return StandsIn(text, name); };
-    if (std::ranges::any_of(NamesIn(word), stands)) glossary += TextOf(word);
+    if (std::ranges::any_of(NamesIn(word), stands)) glossary += HelpEntry(word, meaning);
   }
   return glossary;
 }

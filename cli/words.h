@@ -6,16 +6,13 @@
 
 #include <string>
 #include <string_view>
-
-#include "corpus/json_text.h"
+#include <utility>
+#include <vector>
 
 namespace stiction {
 
-// Rows {"word", "meaning", "source"}: a section of the paper, a page of stiction, or empty.
-const Json& AllWords();
-
-// The meaning of a row, with its source in brackets.
-std::string MeaningOf(const Json& word);
+// Each word and its meaning, with the source in brackets: a section of the paper, or a page of stiction.
+const std::vector<std::pair<std::string, std::string>>& AllWords();
 
 // The meanings of the words that stand in a text, a line or more each, in the order of the table.
 std::string GlossaryOf(std::string_view text);

@@ -186,9 +186,13 @@ SharedJson::SharedJson() : SharedJson(Json()) {}
 SharedJson::SharedJson(std::initializer_list<JsonMember> members) {
   Json json = Json::object();
   for (const auto& [key, value] : members)
-    std::visit([&json, &name = key](const auto& x) { json[name] = x; }, value);
+    std::visit([&json, &name = key](const auto& x) { json[std::string(name)] = x; }, value);
   value_ = std::make_shared<const Json>(std::move(json));
 }
+SharedJson::SharedJson(const std::vector<SharedJson>& list)
+    : SharedJson(Json(Json::array_t(list.begin(), list.end()))) {}
+SharedJson::SharedJson(const std::string& text) : SharedJson(Json(text)) {}
+SharedJson::SharedJson(double number) : SharedJson(Json(number)) {}
 SharedJson::SharedJson(const Json& value) : value_(std::make_shared<const Json>(value)) {}
 SharedJson::SharedJson(Json&& value) : value_(std::make_shared<const Json>(std::move(value))) {}
 SharedJson::operator bool() const { return !value_->is_null(); }

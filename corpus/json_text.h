@@ -27,15 +27,19 @@ using Json = nlohmann::ordered_json;
 
 class SharedJson;
 using JsonMember =
-    std::pair<std::string, std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
-                                        std::vector<std::string>, SharedJson>>;
+    std::pair<std::string_view, std::variant<bool, std::int64_t, std::uint64_t, double, std::string_view,
+                                             std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>,
+                                             SharedJson, std::vector<SharedJson>>>;
 
-// A value that is handed on: copies share it, and who neither reads nor makes more than a flat object of it
-// needs no json.h. A reference to what a temporary one holds dangles.
+// A value that is handed on: copies share it, and who only makes objects and lists of values needs no json.h. A
+// reference to what a temporary one holds dangles.
 class SharedJson {
  public:
   SharedJson();                                           // null
   SharedJson(std::initializer_list<JsonMember> members);  // an object
+  explicit SharedJson(const std::vector<SharedJson>& list);
+  explicit SharedJson(const std::string& text);
+  explicit SharedJson(double number);
   SharedJson(const Json& value);
   SharedJson(Json&& value);
   operator const Json&() const { return *value_; }

@@ -312,8 +312,8 @@ void RequireCheapSquare(const ExactProblem& problem, const ExactVector& x) {
 }
 
 std::optional<Rejected> FindFault(WitnessCheck& check, const ExactProblem& problem, const Json& witness) {
-  const Json described = ProblemToJson(problem);
-  const Budget budget({&described, &witness});
+  const SharedJson described = ProblemToJson(problem);
+  const Budget budget({&*described, &witness});
   try {
     check(problem, witness);
     return std::nullopt;

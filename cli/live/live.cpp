@@ -9,7 +9,7 @@
 
 #include "certify/exact/inexact.h"
 #include "cli/narration/followed.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "solver/published/published_space.h"
 
@@ -26,10 +26,10 @@ bool IsBuilt(const PolicySwitchRow& row, int value, int dimension) {
 }
 
 // Those that leave something to choose.
-Json SwitchesToJson(int dimension) {
-  Json switches = Json::array();
+SharedJson SwitchesToJson(int dimension) {
+  std::vector<SharedJson> switches;
   for (const PolicySwitchRow& row : PolicySwitches()) {
-    Json values = Json::array();
+    std::vector<SharedJson> values;
     for (int i = 0; i < static_cast<int>(row.values.size()); ++i) {
       if (IsBuilt(row, i, dimension))
         values.push_back({{"name", row.values[i].name}, {"meaning", row.values[i].meaning}});
@@ -37,13 +37,13 @@ Json SwitchesToJson(int dimension) {
     if (values.size() > 1)
       switches.push_back({{"name", row.name}, {"question", row.question}, {"values", std::move(values)}});
   }
-  return switches;
+  return SharedJson(switches);
 }
 
-Json LimitsToJson() {
-  Json json = Json::object();
+SharedJson LimitsToJson() {
+  SharedJson json;
   Limits limits = kLiveLimits;
-  ForEachField(limits, [&json](const NumberRow& row, std::int64_t value) { json[row.name] = value; });
+  ForEachField(limits, [&json](const NumberRow& row, std::int64_t value) { json.Add({{row.name, value}}); });
   return json;
 }
 
@@ -72,7 +72,7 @@ FollowedRun Run(const Request& request, const ProblemFile& file) {
   return run;
 }
 
-Json RunToJson(const JsonPlace& place) {
+SharedJson RunToJson(const JsonPlace& place) {
   const ProblemFile file = ParseProblem(place.Required("problem", "text").Text("text"), "problem");
   RequireFew(file);
   const std::string method = place.Required("method", "text").Text("text");
@@ -86,7 +86,7 @@ Json RunToJson(const JsonPlace& place) {
   return {{"data", ReplayPageData(file, {}, runs)}};
 }
 
-Json AnswerToJson(const std::string& request) {
+SharedJson AnswerToJson(const std::string& request) {
   const JsonPlace place(request, kRequest);
   const JsonPlace ask = place.Required("ask", "run or switches");
   const std::string& asked = ask.Text("run or switches");
@@ -104,7 +104,7 @@ std::string AnswerLive(const std::string& request) {
   } catch (const std::bad_alloc&) {
     return R"({"error":"out of memory"})";
   } catch (const std::exception& error) {
-    return JsonText(Json{{"error", error.what()}});
+    return JsonText(SharedJson{{"error", error.what()}});
   }
 }
 

@@ -2,30 +2,34 @@
 #include "cli/narration/listed.h"
 
 #include "certify/request/solve_in.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
 
 SharedJson MethodsToJson() {
-  Json json = Json::array();
+  std::vector<SharedJson> rows;
   for (const MethodFacts& facts : AllMethods()) {
-    Json row = {{"name", facts.name},    {"title", facts.title},    {"source", facts.source},
-                {"ends", facts.ends},    {"path", facts.HasPath()}, {"plane", Json::array()},
-                {"space", Json::array()}};
+    std::vector<std::string> plane, space;
     for (const Arithmetic arithmetic : kArithmetics) {
-      if (facts.IsBuilt(2, arithmetic)) row["plane"].push_back(Name(arithmetic));
-      if (facts.IsBuilt(3, arithmetic)) row["space"].push_back(Name(arithmetic));
+      if (facts.IsBuilt(2, arithmetic)) plane.emplace_back(Name(arithmetic));
+      if (facts.IsBuilt(3, arithmetic)) space.emplace_back(Name(arithmetic));
     }
-    json.push_back(std::move(row));
+    rows.push_back({{"name", facts.name},
+                    {"title", facts.title},
+                    {"source", facts.source},
+                    {"ends", facts.ends},
+                    {"path", facts.HasPath()},
+                    {"plane", plane},
+                    {"space", space}});
   }
-  return json;
+  return SharedJson(rows);
 }
 
 SharedJson PoliciesToJson() {
-  Json rows = Json::array();
+  std::vector<SharedJson> rows;
   for (const PolicySwitchRow& row : PolicySwitches()) {
-    Json values = Json::array();
+    std::vector<SharedJson> values;
     for (const PolicyValue& value : row.values)
       values.push_back({{"value", value.name}, {"meaning", value.meaning}});
     rows.push_back({{"switch", row.name},
@@ -34,7 +38,7 @@ SharedJson PoliciesToJson() {
                     {"planar", row.planar},
                     {"values", values}});
   }
-  return rows;
+  return SharedJson(rows);
 }
 
 }  // namespace stiction

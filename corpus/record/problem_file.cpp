@@ -612,7 +612,7 @@ ExactProblem ProblemFromJson(const Json& json, const std::string& source, const 
   return read;
 }
 
-Json ProblemToJson(const ExactProblem& problem) {
+SharedJson ProblemToJson(const ExactProblem& problem) {
   Json json = ContactsToJson(problem.contacts, problem.dimension, problem.rows());
   json["A"] = MatrixToJson(problem.A, problem.rows());
   json["b"] = ListJson(problem.b);

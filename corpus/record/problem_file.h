@@ -53,7 +53,7 @@ void RequireFewRows(const AnyProblem& problem, const std::string& source);
 // entries are not zero.
 //
 // The problem alone, as certificates embed it: format, version, dimension, contacts, A, b.
-Json ProblemToJson(const ExactProblem& problem);
+SharedJson ProblemToJson(const ExactProblem& problem);
 // Everything.
 SharedJson ToJson(const ProblemFile& file);
 // Everything as text. One contact and one row of A a line, so that a person can read it.

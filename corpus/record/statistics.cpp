@@ -54,7 +54,7 @@ Json ToJson(const StratumKey& key, const Stratum& stratum) {
 
 }  // namespace
 
-Json ToJson(const TallyKey& key) {
+SharedJson ToJson(const TallyKey& key) {
   return {{"generator", key.generator},
           {"contacts", key.contacts},
           {"policy", key.policy},

@@ -29,7 +29,7 @@ struct TallyKey {
   auto operator<=>(const TallyKey&) const = default;
 };
 
-Json ToJson(const TallyKey& key);
+SharedJson ToJson(const TallyKey& key);
 
 // visit(mine, theirs) for every counter of two statistics.
 template <class Visit>

@@ -14,7 +14,7 @@
 #include "corpus/grouped.h"
 #include "corpus/input_error.h"
 #include "corpus/intervals.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/plain_text.h"
 #include "reports/comparison/comparison_page.h"
 #include "reports/comparison/comparison_txt.h"
@@ -334,27 +334,29 @@ Table ComparisonTable(const Comparison& comparison) {
 }
 
 SharedJson ComparisonToJson(const Comparison& comparison) {
-  const auto trials = [](const Ratio& trials) { return Json{{"count", trials.count}, {"of", trials.of}}; };
-  const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
-  Json rates = Json::array(), only_a = Json::array(), only_b = Json::array();
+  const auto trials = [](const Ratio& trials) {
+    return SharedJson{{"count", trials.count}, {"of", trials.of}};
+  };
+  const auto number = [](const std::optional<double>& x) { return x ? SharedJson(*x) : SharedJson(); };
+  std::vector<SharedJson> rates, only_a, only_b;
   for (const ComparedRate& rate : comparison.rates) {
-    Json row = ToJson(rate.key);
-    row.update({{"friction", rate.friction},
-                {"measure", rate.measure},
-                {"a", trials(rate.a)},
-                {"b", trials(rate.b)},
-                {"p", number(rate.p)},
-                {"p_corrected", number(rate.adjusted)},
-                {"more_than_noise", rate.MoreThanNoise()}});
+    SharedJson row = ToJson(rate.key);
+    row.Add({{"friction", rate.friction},
+             {"measure", rate.measure},
+             {"a", trials(rate.a)},
+             {"b", trials(rate.b)},
+             {"p", number(rate.p)},
+             {"p_corrected", number(rate.adjusted)},
+             {"more_than_noise", rate.MoreThanNoise()}});
     rates.push_back(std::move(row));
   }
   for (const TallyKey& key : comparison.only_a) only_a.push_back(ToJson(key));
   for (const TallyKey& key : comparison.only_b) only_b.push_back(ToJson(key));
-  return Json{{"differences", comparison.differences},
-              {"tests", comparison.tests},
-              {"rates", rates},
-              {"only_a", only_a},
-              {"only_b", only_b}};
+  return {{"differences", comparison.differences},
+          {"tests", comparison.tests},
+          {"rates", rates},
+          {"only_a", only_a},
+          {"only_b", only_b}};
 }
 
 Table ComparisonStepsTable(const Comparison& comparison) {

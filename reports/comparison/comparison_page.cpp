@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "reports/comparison_template.h"
 #include "reports/html/html.h"
 #include "reports/page/sections.h"
@@ -12,7 +12,7 @@ namespace stiction {
 
 std::string ComparisonPage(const char* title, const char* question, const Told& told,
                            const std::vector<Table>& figures) {
-  const Json data = {{"figures", FiguresToJson(figures, told, "page")}};
+  const SharedJson data = {{"figures", FiguresToJson(figures, told, "page")}};
   const std::string page(std::begin(kComparisonTemplate), std::end(kComparisonTemplate));
   return FilledTemplate(page, {{"title", Text(title)},
                                {"heading", Text(question)},

@@ -141,7 +141,7 @@ Json NumbersToJson(const ExactProblem& problem) {
           {"b", std::move(b)},
           {"mu", MuColumn(problem)},
           {"dimension", problem.dimension},
-          {"contacts", ProblemToJson(problem)["contacts"]}};
+          {"contacts", ProblemToJson(problem)->at("contacts")}};
 }
 
 Json FilesToJson(const FindingFiles& files) {

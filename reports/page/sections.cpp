@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 
 namespace stiction {
 namespace {
@@ -122,13 +122,13 @@ Html LinksTo(const Told& told, const std::string& medium, const std::string& pag
   return links;
 }
 
-Json FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium) {
-  Json json = Json::object();
+SharedJson FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium) {
+  SharedJson json;
   for (const Section& section : told) {
     for (const Part& part : section.parts) {
       const auto figure = std::ranges::find(figures, part.lead.substr(0, part.lead.find('.')), &Table::name);
       if (part.what == "figure" && part.In(medium) && figure != figures.end())
-        json[figure->name] = ToJson(*figure);
+        json.Add({{figure->name, ToJson(*figure)}});
     }
   }
   return json;

@@ -24,6 +24,6 @@ Html PartsToHtml(const Told& told, const std::string& medium);
 Html LinksTo(const Told& told, const std::string& medium, const std::string& page = "");
 
 // {"NAME": {"columns": [...], "rows": [[...], ...]}, ...} of those that have a place in the medium.
-Json FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium);
+SharedJson FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium);
 
 }  // namespace stiction

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/digest.h"
 #include "corpus/record/problem_file.h"
 #include "reports/papers/package/README_txt.h"
@@ -39,8 +39,8 @@ std::string ClaimOf(const std::string& certificate, const std::string& name) {
   return JsonPlace(certificate, name).Required("claim", "a claim").Text("a claim");
 }
 
-Json Entry(const Discovery& discovery, const std::map<std::string, std::string>& files) {
-  Json problems = Json::array(), certificates = Json::array();
+SharedJson Entry(const Discovery& discovery, const std::map<std::string, std::string>& files) {
+  std::vector<SharedJson> problems, certificates;
   for (const std::string& name : {discovery.files.problem, discovery.files.original}) {
     problems.push_back({{"file", name}, {"digest", ProblemDigest(ParseProblem(files.at(name), name).problem)}});
   }
@@ -58,14 +58,15 @@ Json Entry(const Discovery& discovery, const std::map<std::string, std::string>&
           {"certificates", certificates}};
 }
 
-Json Campaign(const Store& store) {
+SharedJson Campaign(const Store& store) {
   const CampaignIdentity& identity = store.identity();
+  const auto builds = store.TotalWork().builds;
   return {{"definition", ToldDefinition(identity)},
           {"seed", identity.seed},
           {"policies", JsonOrText(identity.policies)},
           {"algorithm", identity.algorithm},
           {"units", store.Units().Count()},
-          {"builds", store.TotalWork().builds}};
+          {"builds", std::vector<std::string>(builds.begin(), builds.end())}};
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ std::filesystem::path WritePackage(const Store& store, const std::filesystem::pa
   const std::vector<Finding> findings = store.Findings();
   const Record total = store.Total();
   const std::vector<Discovery> discoveries = Discoveries(total, findings);
-  Json entries = Json::array();
+  std::vector<SharedJson> entries;
   folder.ExpectFindings(std::count_if(discoveries.begin(), discoveries.end(), [](const Discovery& discovery) {
     return discovery.representative != nullptr;
   }));
@@ -94,7 +95,7 @@ std::filesystem::path WritePackage(const Store& store, const std::filesystem::pa
   for (const auto& [name, text] : checkers) folder.Write("checkers/" + name, text);
   folder.Write("README.txt", TextOf(kReadmeTxt));
   folder.Write("verify.py", TextOf(kVerifyPy));
-  const Json manifest = {
+  const SharedJson manifest = {
       {"format", "stiction-package"}, {"version", 1}, {"campaign", Campaign(store)}, {"findings", entries}};
   folder.Write("manifest.json", JsonText(manifest) + "\n");
   folder.WriteSums();

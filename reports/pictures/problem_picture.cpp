@@ -59,7 +59,7 @@ Json PictureOfProblem(const SceneIn<Kind, double>& scene,
 namespace {
 
 bool AreSame(const ExactProblem& left, const ExactProblem& right) {
-  return ProblemToJson(left) == ProblemToJson(right);
+  return *ProblemToJson(left) == *ProblemToJson(right);
 }
 
 // The picture of the scene, if this is its one problem.

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/output_error.h"
 #include "reports/tables/table.h"
 #include "scene/tables.h"
@@ -45,12 +45,6 @@ std::string TextOf(const OutputCell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* x = std::get_if<double>(&cell)) return NumberText(*x);
   return fmt::format("{}", std::get<std::int64_t>(cell));
-}
-
-Json JsonOf(const OutputCell& cell) {
-  if (IsText(cell)) return TextOf(cell);
-  if (const auto* x = std::get_if<double>(&cell)) return *x;
-  return std::get<std::int64_t>(cell);
 }
 
 // columns.csv
@@ -93,7 +87,7 @@ TableFiles<Row>::TableFiles(const std::filesystem::path& folder, const OutputTab
   std::string names;
   for (const auto& column : table.columns) {
     names += (names.empty() ? "" : ",") + QuotedForCsv(column.name);
-    keys_.push_back((keys_.empty() ? "{" : ", ") + JsonText(column.name) + ": ");
+    keys_.push_back((keys_.empty() ? "{" : ", ") + JsonText(SharedJson(column.name)) + ": ");
   }
   if (forms.csv) csv_ << names << '\n';
 }
@@ -105,7 +99,7 @@ void TableFiles<Row>::Add(const Row& row) {
     const OutputCell cell = table_.columns[i].Of(row);
     const std::string text = TextOf(cell);
     if (csv_.is_open()) line += (i == 0 ? "" : ",") + QuotedForCsv(text);
-    if (json_lines_.is_open()) object += keys_[i] + (IsText(cell) ? JsonText(text) : text);
+    if (json_lines_.is_open()) object += keys_[i] + (IsText(cell) ? JsonText(SharedJson(text)) : text);
   }
   if (csv_.is_open()) csv_ << line << '\n';
   if (json_lines_.is_open()) json_lines_ << object << "}\n";
@@ -183,17 +177,17 @@ template class RunTables<Plane>;
 template class RunTables<Space>;
 
 template <class Kind>
-Json MotionsToJson(const SceneIn<Kind, double>& scene, const std::vector<BodyMotion>& motions) {
-  Json rows = Json::array();
+SharedJson MotionsToJson(const SceneIn<Kind, double>& scene, const std::vector<BodyMotion>& motions) {
+  std::vector<SharedJson> rows;
   for (const BodyMotion& motion : motions) {
-    Json row = Json::object();
+    SharedJson row;
     for (const auto& column : MotionTable<Kind>().columns)
-      row[column.name] = JsonOf(column.Of({scene, motion}));
+      std::visit([&](const auto& value) { row.Add({{column.name, value}}); }, column.Of({scene, motion}));
     rows.push_back(std::move(row));
   }
-  return rows;
+  return SharedJson(rows);
 }
-template Json MotionsToJson(const SceneIn<Plane, double>&, const std::vector<BodyMotion>&);
-template Json MotionsToJson(const SceneIn<Space, double>&, const std::vector<BodyMotion>&);
+template SharedJson MotionsToJson(const SceneIn<Plane, double>&, const std::vector<BodyMotion>&);
+template SharedJson MotionsToJson(const SceneIn<Space, double>&, const std::vector<BodyMotion>&);
 
 }  // namespace stiction

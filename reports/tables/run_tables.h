@@ -49,6 +49,6 @@ class RunTables {
 
 // A list of objects, as the table has them.
 template <class Kind>
-Json MotionsToJson(const SceneIn<Kind, double>& scene, const std::vector<BodyMotion>& motions);
+SharedJson MotionsToJson(const SceneIn<Kind, double>& scene, const std::vector<BodyMotion>& motions);
 
 }  // namespace stiction

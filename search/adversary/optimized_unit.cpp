@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "certify/exact/exact.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/problem_file.h"
 #include "search/adversary/parents.h"
 #include "search/units/regenerate.h"
@@ -50,16 +50,16 @@ std::vector<Candidate> StartOf(const Optimization& o, const std::vector<Candidat
 }  // namespace
 
 std::string ToText(const UnitElites& unit) {
-  Json elites = Json::array();
+  std::vector<SharedJson> elites;
   for (const Elite& elite : unit.elites) {
-    Json json = {{"candidate", ToJson(elite.candidate)}, {"nearness", elite.worth.nearness}};
-    if (elite.worth.value) json["value"] = *elite.worth.value;
+    SharedJson json = {{"candidate", ToJson(elite.candidate)}, {"nearness", elite.worth.nearness}};
+    if (elite.worth.value) json.Add({{"value", *elite.worth.value}});
     elites.push_back(std::move(json));
   }
-  return JsonText(Json{{"elites", std::move(elites)},
-                       {"evaluations", unit.evaluations},
-                       {"confirmations", unit.confirmations},
-                       {"denied", unit.denied}});
+  return JsonText(SharedJson{{"elites", std::move(elites)},
+                             {"evaluations", unit.evaluations},
+                             {"confirmations", unit.confirmations},
+                             {"denied", unit.denied}});
 }
 
 UnitElites ElitesFromText(const std::string& text, const std::string& source) {

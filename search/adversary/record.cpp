@@ -10,7 +10,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
 #include "certify/exact/properties.h"
-#include "corpus/json.h"
+#include "corpus/json_text.h"
 #include "corpus/record/digest.h"
 #include "corpus/rounded.h"
 #include "search/adversary/trial.h"
@@ -207,7 +207,7 @@ std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder) {
 }
 
 std::string Print(const FrontierRecord& record) {
-  Json json = {{"format", "stiction-record"},
+  SharedJson json = {{"format", "stiction-record"},
                {"version", 1},
                {"frontier", record.frontier},
                {"what", record.what},
@@ -218,13 +218,14 @@ std::string Print(const FrontierRecord& record) {
                {"build", record.build},
                {"processor_seconds", record.processor_seconds},
                {"random",
-                {{"value", record.random_value ? Json(ToString(*record.random_value)) : Json()},
-                 {"evaluations", record.random_evaluations},
-                 {"command", record.random_command}}},
+                SharedJson{{"value", record.random_value ? SharedJson(ToString(*record.random_value)) : SharedJson()},
+                           {"evaluations", record.random_evaluations},
+                           {"command", record.random_command}}},
                {"problem", ToJson(record.problem)},
                {"certificate", record.certificate}};
-  if (record.bounds) json["bounds"] = {ToString(record.bounds->first), ToString(record.bounds->second)};
-  if (record.status == "proved") json["proof"] = record.proof;
+  if (record.bounds)
+    json.Add({{"bounds", std::vector{ToString(record.bounds->first), ToString(record.bounds->second)}}});
+  if (record.status == "proved") json.Add({{"proof", record.proof}});
   return JsonText(json) + "\n";
 }
 

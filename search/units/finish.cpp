@@ -16,6 +16,7 @@
 #include "corpus/json.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
+#include "search/campaign.h"
 #include "search/units/minimize.h"
 #include "search/units/signature.h"
 #include "solver/problem/check.h"

@@ -104,7 +104,7 @@ TEST_CASE("certificate: where no forces are found, the theorem says that there a
 }
 
 TEST_CASE("certificate: what is not so is not certified") {
-  CHECK(CycleCertificate(ThreeSolutions(), PlanarGrid(), {}).is_null());
+  CHECK(CycleCertificate(ThreeSolutions(), PlanarGrid(), {})->is_null());
   CHECK_THROWS_AS(SolutionCertificate(ThreeSolutions(), Vector({1, 0})), InternalError);
   ExactProblem skew = ThreeSolutions();
   skew.A = Matrix({{1, 5}, {-5, 1}});
@@ -145,7 +145,7 @@ TEST_CASE("certificate: a counterexample is a cycle, a definite A and a solution
   bordered.A.topLeftCorner(4, 4) = ReferenceProblem().A;
   bordered.b = ExactVector::Constant(5, 0);
   bordered.b.head(4) = ReferenceProblem().b;
-  CHECK_FALSE(CycleCertificate(bordered, {Policy{}}, {}).is_null());
+  CHECK_FALSE(CycleCertificate(bordered, {Policy{}}, {})->is_null());
   CHECK(ClaimOf(CounterexampleOf(bordered, {Policy{}})) == "not-definite");
 }
 

@@ -193,7 +193,7 @@ TEST_CASE("bilateral contacts that no forces hold: singular before the first ste
   CHECK(run.trace.pivots.empty());
   CHECK(run.a == problem.b);
   CHECK(RunPolicies(problem, PlanarGrid(), {}).size() == 1);
-  CHECK(CycleCertificate(problem, {Policy{}}, {}).is_null());
+  CHECK(CycleCertificate(problem, {Policy{}}, {})->is_null());
 }
 
 }  // namespace

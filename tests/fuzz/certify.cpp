@@ -69,7 +69,7 @@ bool FuzzCertify(std::string_view input) {
   made += Makes([&] { return ConditionCertificate(problem).value_or(Json()); });
   if (problem.dimension == 2) {
     const std::vector<Policy> policies = PaperAnd(policy);
-    made += Makes([&] { return CycleCertificate(problem, policies, kRunLimits); });
+    made += Makes([&]() -> Json { return CycleCertificate(problem, policies, kRunLimits); });
     made += Makes([&] {
       return CertifyClaim(problem, "made", "counterexample", {.limits = kRunLimits}, policies)
           ->at("certificate");

@@ -18,7 +18,7 @@ namespace {
 using namespace testing;
 using Catch::Contains;
 
-bool Same(const ExactProblem& x, const ExactProblem& y) { return ProblemToJson(x) == ProblemToJson(y); }
+bool Same(const ExactProblem& x, const ExactProblem& y) { return *ProblemToJson(x) == *ProblemToJson(y); }
 
 std::string Lack(const ExactProblem& problem, const MinimizeOptions& options) {
   try {

@@ -264,7 +264,7 @@ TEST_CASE("unit: an exact run of a finding's problem gives what the finding says
       CAPTURE(finding.signature, finding.unit, finding.index);
       const ExactProblem problem = Regenerate(campaign, finding.unit, finding.index).problem;
       const ProblemFile file = ParseProblem(finding.problem, "finding");
-      CHECK(ProblemToJson(file.problem) == ProblemToJson(problem));
+      CHECK(*ProblemToJson(file.problem) == *ProblemToJson(problem));
       CHECK(ToJson(file)->dump() == finding.problem);
       const Policy policy = ParsePolicy(finding.policy);
       const ExactRun run = RunExact(problem, {.policy = policy, .limits = campaign.limits});
