@@ -114,7 +114,9 @@ int BenchGateCost(const BenchOptions& options) {
   BenchTable table{"gate-cost", "microseconds a problem of the plane: LU of A with one solve, and the gate"};
   for (const int contacts : sizes) table.rows.push_back(Row(contacts, options));
   if (options.json) {
-    std::cout << JsonText(SharedJson{{"suite", options.suite}, {"seed", options.seed}, {table.name, table.rows}}) << "\n";
+    std::cout << JsonText(
+                     SharedJson{{"suite", options.suite}, {"seed", options.seed}, {table.name, table.rows}})
+              << "\n";
   } else {
     Print(table);
   }

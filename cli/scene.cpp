@@ -125,7 +125,8 @@ struct SimulateCommand {
   bool full = false, svg = true, replace = false, json = false;
 };
 
-ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name, const SharedJson& origin) {
+ProblemFile ExactFile(const ContactProblem<double>& problem, const std::string& name,
+                      const SharedJson& origin) {
   ProblemFile file;
   file.name = name;
   file.origin = origin;
@@ -193,9 +194,9 @@ class SimulationWriter {
     for (std::size_t i = 0; i < islands.size(); ++i) {
       const std::string name = fmt::format("{}-{:05}-{}", simulation.scene().name, frame, i + 1);
       const SharedJson origin = {{"scene", simulation.scene().name},
-                           {"frame", frame},
-                           {"level", "forces"},
-                           {"rounded", "J, A and b to doubles"}};
+                                 {"frame", frame},
+                                 {"level", "forces"},
+                                 {"rounded", "J, A and b to doubles"}};
       picture.problems.push_back(Print(ExactFile(simulation.model().Problem(i), name, origin)));
       room_ -= std::min(room_, picture.problems.back().size());
     }
@@ -321,8 +322,9 @@ std::string MotionText(const SceneIn<Kind, double>& scene, std::vector<BodyMotio
 // By the names of their table.
 SharedJson StatisticsToJson(const SimulationStatistics& statistics) {
   SharedJson json;
-  ForEachField(statistics,
-               [&json](const char* name, const char*, std::int64_t value) { json.Add({{name, value}}); });
+  ForEachField(statistics, [&json](const char* name, const char*, std::int64_t value) {
+    json.Add({{name, value}});
+  });
   return json;
 }
 

@@ -28,8 +28,8 @@ using Json = nlohmann::ordered_json;
 class SharedJson;
 using JsonMember =
     std::pair<std::string_view, std::variant<bool, std::int64_t, std::uint64_t, double, std::string_view,
-                                             std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>,
-                                             SharedJson, std::vector<SharedJson>>>;
+                                             std::vector<std::int64_t>, std::vector<double>,
+                                             std::vector<std::string>, SharedJson, std::vector<SharedJson>>>;
 
 // A value that is handed on: copies share it, and who only makes objects and lists of values needs no json.h. A
 // reference to what a temporary one holds dangles.

@@ -146,8 +146,6 @@ using RigidBody = BodyIn<Plane, Scalar>;
 template <class Scalar>
 using Joint = JointIn<Plane, Scalar>;
 template <class Scalar>
-using GivenContact = GivenContactIn<Plane, Scalar>;
-template <class Scalar>
 using Scene = SceneIn<Plane, Scalar>;
 
 template <class Scalar>
@@ -156,8 +154,6 @@ template <class Scalar>
 using BodyInSpace = BodyIn<Space, Scalar>;
 template <class Scalar>
 using JointInSpace = JointIn<Space, Scalar>;
-template <class Scalar>
-using GivenContactInSpace = GivenContactIn<Space, Scalar>;
 template <class Scalar>
 using SceneInSpace = SceneIn<Space, Scalar>;
 

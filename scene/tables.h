@@ -48,8 +48,6 @@ std::string NameOfBody(const SceneIn<Kind, double>& scene, int body) {
 // A table, and what a row of it is made of.
 template <class Row>
 struct OutputTable {
-  using RowType = Row;
-
   std::string name;  // of its file
   std::vector<OutputColumn<Row>> columns;
 };

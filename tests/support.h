@@ -13,6 +13,7 @@
 #include "certify/exact/exact.h"
 #include "search/generators/exponential.h"
 #include "search/generators/generators.h"
+#include "solver/complete/polygon.h"
 #include "solver/complete/polygon_errors.h"
 #include "solver/problem/lenient.h"
 
@@ -54,6 +55,15 @@ template <class Problem, class Polygons, class Vector>
 auto PolygonErrorOf(const Problem& problem, const Polygons& polygons, const Vector& f, const Vector& a) {
   using Scalar = typename Vector::Scalar;
   return PolygonErrors(problem, polygons, f, a, Scalar(1)).Largest();
+}
+
+// min h_k^2 / n_k^2
+inline Rational InnerRadiusSquared(const FrictionPolygon<Rational>& polygon) {
+  Rational least(1);
+  for (int k = 0; k < polygon.sides(); ++k)
+    least = std::min(least,
+                     Rational(polygon.reach(k) * polygon.reach(k) / Dot(polygon.normal(k), polygon.normal(k))));
+  return least;
 }
 
 inline Rational Number(const std::string& text) { return ParseRational(text).value(); }

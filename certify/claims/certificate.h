@@ -37,7 +37,8 @@ Json HypothesisCertificate(const ExactProblem& problem);
 Json ExistsCertificate(const ExactProblem& problem);
 // `cycle`, for those of the policies that end in one; in space, of frictionless and static contacts, for the
 // first that is proved to. A null value if none is.
-SharedJson CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits);
+SharedJson CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
+                            const Limits& limits);
 
 // Steps as certificates and `replay --json` write them.
 Json PivotToJson(const Pivot<Rational>& pivot, const std::vector<std::string>& names);

@@ -122,7 +122,8 @@ Json CyclesCertificate(const ExactProblem& problem, const std::vector<PolicyEnds
 
 }  // namespace
 
-SharedJson CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies, const Limits& limits) {
+SharedJson CycleCertificate(const ExactProblem& problem, const std::vector<Policy>& policies,
+                            const Limits& limits) {
   if (problem.dimension == 3) return CertificateInSpace("cycle", problem, policies, limits, ProveLoopInSpace);
   return CyclesCertificate(problem, EndsUnder(policies, problem, limits), limits);
 }

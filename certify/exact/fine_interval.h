@@ -249,19 +249,7 @@ namespace Eigen {
 
 template <>
 struct NumTraits<stiction::FineInterval> : GenericNumTraits<stiction::FineInterval> {
-  using Real = stiction::FineInterval;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 100,
-    AddCost = 1000,
-    MulCost = 2000
-  };
+  enum { IsSigned = 1, ReadCost = 100, AddCost = 1000, MulCost = 2000 };
 };
 
 }  // namespace Eigen

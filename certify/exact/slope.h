@@ -148,19 +148,7 @@ namespace Eigen {
 
 template <>
 struct NumTraits<stiction::Slope> : GenericNumTraits<stiction::Slope> {
-  using Real = stiction::Slope;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 100,
-    AddCost = 1000,
-    MulCost = 2000
-  };
+  enum { IsSigned = 1, ReadCost = 100, AddCost = 1000, MulCost = 2000 };
 };
 
 }  // namespace Eigen

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -16,8 +17,10 @@
 #include "corpus/intervals.h"
 #include "corpus/json_text.h"
 #include "corpus/plain_text.h"
-#include "reports/comparison/comparison_page.h"
 #include "reports/comparison/comparison_txt.h"
+#include "reports/comparison_template.h"
+#include "reports/html/html.h"
+#include "reports/page/sections.h"
 #include "reports/report_files.h"
 #include "reports/tables/groups.h"
 
@@ -384,6 +387,18 @@ std::filesystem::path WriteComparison(const Comparison& comparison, const std::s
   for (const Table& table : tables) folder.Write(table.name + ".csv", ToCsv(table));
   folder.WriteSums();
   return whole.Commit();
+}
+
+std::string ComparisonPage(const char* title, const char* question, const Told& told,
+                           const std::vector<Table>& figures) {
+  const SharedJson data = {{"figures", FiguresToJson(figures, told, "page")}};
+  const std::string page(std::begin(kComparisonTemplate), std::end(kComparisonTemplate));
+  return FilledTemplate(page, {{"title", Text(title)},
+                               {"heading", Text(question)},
+                               {"lead", PartsToHtml(told, "page-lead")},
+                               {"navigation", LinksTo(told, "page")},
+                               {"found", SectionsToHtml(told, "page", {}, "")},
+                               {"data", ScriptData(JsonText(data))}});
 }
 
 }  // namespace stiction

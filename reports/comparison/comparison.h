@@ -72,10 +72,15 @@ SharedJson ComparisonToJson(const Comparison& comparison);
 // A row per number of steps that occurred.
 Table ComparisonStepsTable(const Comparison& comparison);
 
-// index.html (comparison_page.h), comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a
+// index.html, comparison.txt, comparison.csv, comparison_steps.csv and SHA256SUMS, as a
 // whole. Returns where a directory with files of others was moved to, if so.
 std::filesystem::path WriteComparison(const Comparison& comparison, const std::string& file_a,
                                       const std::string& file_b, const std::filesystem::path& directory,
                                       Occupied occupied = Occupied::kRefused);
+
+// index.html of campaigns, or of solvers under test, side by side: what is told for a `page`; `figures`: what
+// it draws.
+std::string ComparisonPage(const char* title, const char* question, const Told& told,
+                           const std::vector<Table>& figures = {});
 
 }  // namespace stiction

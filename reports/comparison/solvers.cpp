@@ -12,7 +12,7 @@
 #include "corpus/plain_text.h"
 #include "corpus/record/kinds.h"
 #include "corpus/record/problem_file.h"
-#include "reports/comparison/comparison_page.h"
+#include "reports/comparison/comparison.h"
 #include "reports/comparison/solvers_txt.h"
 #include "reports/report_files.h"
 

@@ -93,28 +93,6 @@ inline std::array<IndexSet, 2> SetsOf(const LawCell& cell) {
   }
 }
 
-// The sets during a piece of the plane's path, from its word; `driven`: the row of the variable that is in
-// none.
-template <class Contacts>
-std::vector<IndexSet> SetsDuring(std::string_view word, const Contacts& contacts, int driven) {
-  constexpr std::string_view kNames = "B+-S0H";
-  constexpr std::array<LawCell, 6> kCells = {{{Law::kBreak, 0},
-                                              {Law::kCorner, 0},
-                                              {Law::kCorner, 1},
-                                              {Law::kInside, 0},
-                                              {Law::kFree, 0},
-                                              {Law::kHold, 0}}};
-  std::vector<IndexSet> sets;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const std::size_t name = kNames.find(word[2 * i]);
-    const auto of_contact = SetsOf(name == std::string_view::npos ? LawCell() : kCells[name]);
-    sets.push_back(of_contact[0]);
-    if (contacts[i].HasFrictionRows()) sets.push_back(of_contact[1]);
-  }
-  sets[driven] = IndexSet::kNone;
-  return sets;
-}
-
 // What is behind a facet: the cell that it names; a corner, by the sign of aF; or an end of the stage, at which
 // the contact is in the cell that it names.
 enum class Beyond : std::uint8_t { kCell, kCorners, kStart, kEnd };

@@ -80,16 +80,6 @@ class FrictionPolygon {
     return false;
   }
 
-  // min h_k^2 / n_k^2, the square of the inner radius.
-  Scalar InnerRadiusSquared() const {
-    Scalar least(1);
-    for (int k = 0; k < sides(); ++k) {
-      const Scalar square = reaches_[k] * reaches_[k] / Dot(edges_[k], edges_[k]);
-      if (square < least) least = square;
-    }
-    return least;
-  }
-
   // The point of radius times the polygon that is nearest to x. Requires radius >= 0.
   Planar<Scalar> Project(const Planar<Scalar>& x, const Scalar& radius) const {
     Planar<Scalar> nearest = x;

@@ -41,12 +41,6 @@
 
 namespace stiction {
 
-// Whether `problem` is of a dimension that the fast method is built for.
-template <class Problem>
-bool FastHandles(const Problem& problem) {
-  return problem.dimension == 2;
-}
-
 // Of a request tolerances (which violations move a contact, which columns of M are dependent), limits, residual
 // and noise are read; limits.pivots bounds the updates of a factored matrix, too.
 //
@@ -63,7 +57,7 @@ class FastSolver {
 
   bool drives = true;  // whether the published algorithm and complete driving are behind guesses
 
-  // Requires FastHandles(problem). `guess` holds a cell per contact to start from, such as cells() of a
+  // Of the plane. `guess` holds a cell per contact to start from, such as cells() of a
   // problem solved before; cells that a contact cannot be in are replaced. Without it, sweeps start.
   RunEnd<> Run(const Problem& problem, std::span<const Cell> guess = {});
 

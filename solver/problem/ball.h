@@ -170,13 +170,7 @@ namespace Eigen {
 
 template <class Number>
 struct NumTraits<stiction::Ball<Number>> : GenericNumTraits<stiction::Ball<Number>> {
-  using Real = stiction::Ball<Number>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Real;
   enum {
-    IsComplex = 0,
-    IsInteger = 0,
     IsSigned = 1,
     RequireInitialization = !std::is_trivially_copyable_v<Number>,
     ReadCost = 2,

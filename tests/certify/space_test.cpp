@@ -113,7 +113,7 @@ TEST_CASE("space: the polygon alone proves its inner radius") {
       REQUIRE(bound);
       // Rounded down by at most 1/128 of the distance from one.
       const Rational least = (1 + *bound * 127) / 128 + Rational(1, 64);
-      CHECK(least * least >= polygon.InnerRadiusSquared());
+      CHECK(least * least >= InnerRadiusSquared(polygon));
     }
   }
 }

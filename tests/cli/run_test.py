@@ -116,6 +116,9 @@ class WhileAnotherBuilds(cli.TestCase):
         self.assertIn("nothing is built yet; ./run solve --help", done.stderr)
         self.assertEqual(self.called("help", "slove").returncode, 2)
         self.assertIn("--if-changed", self.called("help", "prove").stdout)
+        for verb, option in (("test", "--nightly"), ("prove", "--if-changed"), ("release", "solver"), ("site", "-o DIR")):
+            for word in ("-h", "--help"):  # asks for help alone: nothing is built, tested or proved
+                self.assertIn(option, self.called(verb, word).stdout)
 
     def test_a_program_that_is_not_there_is_waited_for(self):
         self.make("stiction")  # but not stiction-ipopt

@@ -8,8 +8,9 @@ BUILD (build/release) is asked for the processor time of its compilations. --lis
 rule: what to mend. --against compiles the program of COMMIT, of the whole clone, and that of this tree, one after the
 other and from nothing, in build/against: seconds of one machine in one hour can be compared, others cannot.
 
-Lines are those of files, blank ones and comments among them. The product is what a user runs: tests, and the peers that
-bench measures, are not in it. Rules look at what sources do, so that a new name lowers no count:
+Lines are those of files, blank ones and comments among them; those that the commits of the recipes added are features
+of their own and not counted. The product is what a user runs: tests, and the peers that bench measures, are not in it.
+Rules look at what sources do, so that a new name lowers no count:
 
   type            what stands behind struct, class, enum and union
   problem type    a type that has contacts and numbers, or A and b; or half of whose members are problems, two at least:
@@ -282,11 +283,26 @@ def share_against(commit):
     return round(now / before, 2)
 
 
-def recipe_files(recipe):
-    """How many files the commit of the recipe touches that CONTRIBUTING.md names; None where Git does not have it."""
+def recipe_lines(recipe):
+    """(file, lines that came, lines that went) of the commit of the recipe that CONTRIBUTING.md names; None where Git
+    does not have it."""
     commit = re.search(rf"^\*\*A {recipe}\b[^*]*\*\* \(([0-9a-f]+)\)", text("CONTRIBUTING.md"), re.M)[1]
-    listed = git("show", "--format=", "--name-only", "--no-renames", commit, "--")
-    return None if listed is None else len(listed.split())
+    listed = git("show", "--format=", "--numstat", "--no-renames", commit, "--")
+    rows = re.findall(r"^([\d-]+)\t([\d-]+)\t(.*)$", listed or "", re.M)  # "-" of a file that is no text
+    return None if listed is None else [(name, int(came.strip("-") or 0), int(went.strip("-") or 0))
+                                        for came, went, name in rows]
+
+
+def recipe_files(recipe):
+    lines = recipe_lines(recipe)
+    return None if lines is None else len(lines)
+
+
+def lines_before_recipes(names):
+    """Of the product, without what the commits of the recipes added: features of their own. None as above."""
+    recipes = [recipe_lines(recipe) for recipe in RECIPES]
+    added = None if None in recipes else sum(came - went for lines in recipes for name, came, went in lines if name in names)
+    return None if added is None else sum(len(text(name).splitlines()) for name in names) - added
 
 
 def survivors():
@@ -324,7 +340,7 @@ def measures(build, share):
 
     def counted(what, places, most):
         return what, len(places), most, places
-    yield "lines of the product, peers apart", sum(len(text(name).splitlines()) for name in names), 87_700, []
+    yield "lines of the product, peers and the recipes' features apart", lines_before_recipes(names), 93_719 - 6_000, []
     yield "lines of texts with places, beside them", sum(len(text(name).splitlines()) for name in texts()), 1_800, []
     yield "types", sum(len(TYPE.findall(text(name))) for name in cpp), 710, []
     yield counted("problem types", problem_types(codes), 3)

@@ -492,9 +492,9 @@ TEST_CASE("polygon: corners are points of the circle, in order, symmetric to qua
       CHECK(Dot(polygon.normal(k), polygon.corner(k + 1)) == polygon.reach(k));
     }
   }
-  CHECK(FrictionPolygon<Rational>(4).InnerRadiusSquared() == Rational(1, 2));
-  CHECK(FrictionPolygon<Rational>(8).InnerRadiusSquared() == Rational(4, 5));
-  CHECK(FrictionPolygon<Rational>(16).InnerRadiusSquared() == Rational(16, 17));
+  CHECK(InnerRadiusSquared(FrictionPolygon<Rational>(4)) == Rational(1, 2));
+  CHECK(InnerRadiusSquared(FrictionPolygon<Rational>(8)) == Rational(4, 5));
+  CHECK(InnerRadiusSquared(FrictionPolygon<Rational>(16)) == Rational(16, 17));
   CHECK_THROWS_AS(FrictionPolygon<Rational>(6), InternalError);
 }
 

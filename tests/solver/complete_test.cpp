@@ -123,6 +123,28 @@ bool Descends(const Pivot<Scalar>& piece) {
   return EndsStage(piece) && piece.to == IndexSet::kNone;
 }
 
+// The sets during a piece of the plane's path, from its word; `driven`: the row of the variable that is in
+// none.
+std::vector<IndexSet> SetsDuring(std::string_view word, const std::vector<Contact<Rational>>& contacts,
+                                 int driven) {
+  constexpr std::string_view kNames = "B+-S0H";
+  constexpr std::array<LawCell, 6> kCells = {{{Law::kBreak, 0},
+                                              {Law::kCorner, 0},
+                                              {Law::kCorner, 1},
+                                              {Law::kInside, 0},
+                                              {Law::kFree, 0},
+                                              {Law::kHold, 0}}};
+  std::vector<IndexSet> sets;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::size_t name = kNames.find(word[2 * i]);
+    const auto of_contact = SetsOf(name == std::string_view::npos ? LawCell() : kCells[name]);
+    sets.push_back(of_contact[0]);
+    if (contacts[i].HasFrictionRows()) sets.push_back(of_contact[1]);
+  }
+  sets[driven] = IndexSet::kNone;
+  return sets;
+}
+
 // What complete_driving.md proves of a path.
 void CheckPath(const ExactProblem& problem, const CompleteRun& run) {
   std::set<std::pair<int, std::string>> visited;
