@@ -18,7 +18,7 @@ namespace stiction {
 
 namespace {
 
-const JsonPlace& Table() {
+const JsonPlace& WordTable() {
   static const std::string source = "words";
   static const JsonPlace table({reinterpret_cast<const char*>(kWordsJson), sizeof kWordsJson}, source);
   return table;
@@ -29,8 +29,8 @@ const JsonPlace& Table() {
 const std::vector<std::pair<std::string, std::string>>& AllWords() {
   static const auto words = [] {
     std::vector<std::pair<std::string, std::string>> all;
-    for (std::size_t i = 0; i < Table().Size("a list"); ++i) {
-      const JsonPlace row = Table()[i];
+    for (std::size_t i = 0; i < WordTable().Size("a list"); ++i) {
+      const JsonPlace row = WordTable()[i];
       const auto text = [&row](const char* key) { return row.Required(key, "text").Text("text"); };
       const std::string source = text("source");
       all.emplace_back(text("word"), text("meaning") + (source.empty() ? "" : fmt::format(" ({})", source)));
@@ -67,7 +67,7 @@ bool StandsIn(std::string_view text, std::string_view word) {
 
 int List(const bool& in_json) {
   if (in_json) {
-    std::cout << JsonText(Table().json()) << "\n";
+    std::cout << JsonText(WordTable().json()) << "\n";
     return kExitDone;
   }
   for (const auto& [word, meaning] : AllWords()) std::cout << HelpEntry(word, meaning);

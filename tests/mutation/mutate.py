@@ -214,11 +214,16 @@ def lines_of(mutant):
 
 
 def blamed(output, mutants, sources):
-    """The mutants on lines that the compiler names."""
-    named = {(match[1], int(match[2])) for match in
-             re.finditer(rf"{re.escape(str(sources))}/([\w./-]+):(\d+)[:,]", output)}
-    return [mutant for mutant in mutants
-            if any((mutant.file, line) in named for line in range(lines_of(mutant)[0], lines_of(mutant)[1] + 1))]
+    """The mutants on lines that the compiler names; else the last one before an error, as where the end of a constexpr
+    function is named."""
+    place = rf"{re.escape(str(sources))}/([\w./-]+):(\d+)[:,]"
+    named = {(match[1], int(match[2])) for match in re.finditer(place, output)}
+    found = [mutant for mutant in mutants
+             if any((mutant.file, line) in named for line in range(lines_of(mutant)[0], lines_of(mutant)[1] + 1))]
+    for match in () if found else re.finditer(place + r"(?:\d+:)? error:", output):
+        before = [mutant for mutant in mutants if mutant.file == match[1] and lines_of(mutant)[0] <= int(match[2])]
+        found += [mutant for mutant in sorted(before, key=lines_of)[-1:] if mutant not in found]
+    return found
 
 
 def build(folder, mutants, jobs):

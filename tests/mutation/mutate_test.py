@@ -32,6 +32,11 @@ Tag Tagged() {
   Tag tag(7);
   return tag;
 }
+
+constexpr int Twice(int k) {
+  return k + k;
+}
+static_assert(Twice(2) == 4);
 """
 HEADER = """#pragma once
 struct Tag {
@@ -115,6 +120,8 @@ class Run(unittest.TestCase):
             mutate.report("drawn", chosen, verdicts, lambda mutant: mutant.id.split()[-1], 0.9)
         self.assertLess(len(compiled), len(drawn), "return {}; of a Tag does not compile")
         self.assertIn("does not compile: solver/clamp.cpp", said.getvalue())
+        twice = [any("k + k" in mutant.breaks for mutant in some) for some in (drawn, compiled)]
+        self.assertEqual(twice, [True, False], "no constant expression, which the compiler says at the end of the function")
         self.assertTrue(any("x - 1" in mutant.breaks for mutant in compiled if mutant not in chosen), "not covered")
         by_change = {mutant.breaks: verdicts[mutant.id].test for mutant in chosen}
         self.assertEqual(by_change["x > most  ->  x >= most"], None)
