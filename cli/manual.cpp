@@ -47,7 +47,7 @@ std::string Paragraph(std::string_view term, std::string_view meaning) {
 }
 
 // Every line a paragraph; those that are indented hang together.
-std::string Lines(const std::string& text) {
+std::string LinesInMan(const std::string& text) {
   std::string out;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -69,7 +69,7 @@ std::string RowInMan(const OptionRow& row) {
 std::string VerbInMan(const Verb& verb) {
   std::string text = fmt::format(".SS {}\n{}\n.PP\n", Escaped(UsageLine(verb)), Escaped(verb.purpose));
   for (const OptionRow& row : verb.rows) text += RowInMan(row);
-  return text + Lines(verb.footer);
+  return text + LinesInMan(verb.footer);
 }
 
 // ---- bash ----
@@ -143,7 +143,7 @@ std::string ManPage(const CommandLine& program, bool of_bench) {
   Blanks blanks = {{{"VERSION", Escaped(NameAndNumber(program.version))},
                     {"PURPOSE", Escaped(purpose)},
                     {"ROWS", rows},
-                    {"EXITS", Lines(program.footer)},
+                    {"EXITS", LinesInMan(program.footer)},
                     {"WORDS", words}}};
   if (of_bench) blanks.words = {"bench"};
   return Filled(kManual1, blanks);

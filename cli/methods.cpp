@@ -22,7 +22,7 @@ std::string WhereBuilt(const MethodFacts& facts, Arithmetic arithmetic) {
   return plane ? "plane" : space ? "space" : "-";
 }
 
-std::string Table() {
+std::string MethodTable() {
   std::vector<std::string> head = {"method"};
   for (const Arithmetic arithmetic : kArithmetics) head.emplace_back(Name(arithmetic));
   TextTable table(std::move(head), 1);
@@ -39,7 +39,7 @@ std::string Table() {
   return table.Done() + fmt::format("\n{} of {} combinations are refused.\n", refused, all);
 }
 
-std::string Facts() {
+std::string MethodsInWords() {
   std::string text;
   for (const MethodFacts& facts : AllMethods())
     text += fmt::format("\n{}\n  {}\n  source: {}\n  what its end proves: {}\n", facts.name, facts.title,
@@ -48,7 +48,7 @@ std::string Facts() {
 }
 
 int ListMethods(const bool& json) {
-  std::cout << (json ? JsonText(MethodsToJson()) + "\n" : Table() + Folded(Facts()));
+  std::cout << (json ? JsonText(MethodsToJson()) + "\n" : MethodTable() + Folded(MethodsInWords()));
   return kExitDone;
 }
 
