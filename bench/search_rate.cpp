@@ -296,7 +296,7 @@ int BenchSearch(const BenchOptions& o) {
     take(MeasureRoofline(o));
   }
   if (o.json) {
-    SharedJson json = SharedJson{};
+    SharedJson json;
     for (const BenchTable& table : tables) json.Add({{table.name, table.rows}});
     std::cout << JsonText(json) << "\n";
   }

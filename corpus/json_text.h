@@ -40,6 +40,7 @@ class SharedJson {
   explicit SharedJson(const std::vector<SharedJson>& list);
   explicit SharedJson(const std::string& text);
   explicit SharedJson(double number);
+  static SharedJson Object() { return std::initializer_list<JsonMember>(); }
   SharedJson(const Json& value);
   SharedJson(Json&& value);
   operator const Json&() const { return *value_; }

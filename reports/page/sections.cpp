@@ -123,7 +123,7 @@ Html LinksTo(const Told& told, const std::string& medium, const std::string& pag
 }
 
 SharedJson FiguresToJson(const std::vector<Table>& figures, const Told& told, const std::string& medium) {
-  SharedJson json;
+  SharedJson json = SharedJson::Object();
   for (const Section& section : told) {
     for (const Part& part : section.parts) {
       const auto figure = std::ranges::find(figures, part.lead.substr(0, part.lead.find('.')), &Table::name);

@@ -68,6 +68,13 @@ TEST_CASE("JSON: a value that is handed on is shared, and changed in one place o
   none.Add({{"a", 1}});
   CHECK(*none == Json{{"a", 1}});
   CHECK(Json{{"in", none}}["in"]["a"] == 1);
+  CHECK(JsonText(SharedJson::Object()) == "{}");
+  const std::vector<SharedJson> list = {other, SharedJson(), SharedJson(std::string("text")), SharedJson(0.5), {{"g", 2}}};
+  CHECK(JsonText(SharedJson(list)) == "[" + JsonText(other) + R"(,null,"text",0.5,{"g":2}])");
+  CHECK(JsonText(SharedJson{{"all", list}, {"none", std::vector<SharedJson>()}}) ==
+        R"({"all":)" + JsonText(SharedJson(list)) + R"(,"none":[]})");
+  CHECK(JsonText(SharedJson{{"n", std::size_t{18446744073709551615u}}, {"x", std::vector<double>{1, 0.5}}}) ==
+        R"({"n":18446744073709551615,"x":[1.0,0.5]})");
 }
 
 TEST_CASE("JSON: the places of a text keep it, and refuse what is not asked for") {
