@@ -214,16 +214,19 @@ def lines_of(mutant):
 
 
 def blamed(output, mutants, sources):
-    """The mutants on lines that the compiler names; else the last one before an error, as where the end of a constexpr
-    function is named."""
+    """The mutants on lines of errors; else on lines that errors name; else the last one before an error, as where the
+    end of a constexpr function is wrong."""
     place = rf"{re.escape(str(sources))}/([\w./-]+):(\d+)[:,]"
-    named = {(match[1], int(match[2])) for match in re.finditer(place, output)}
-    found = [mutant for mutant in mutants
-             if any((mutant.file, line) in named for line in range(lines_of(mutant)[0], lines_of(mutant)[1] + 1))]
-    for match in () if found else re.finditer(place + r"(?:\d+:)? error:", output):
-        before = [mutant for mutant in mutants if mutant.file == match[1] and lines_of(mutant)[0] <= int(match[2])]
-        found += [mutant for mutant in sorted(before, key=lines_of)[-1:] if mutant not in found]
-    return found
+    wrong, named = ({(match[1], int(match[2])) for match in re.finditer(one, output)}
+                    for one in (place + r"(?:\d+:)? (?:fatal )?error:", place))
+
+    def on(lines):
+        return [mutant for mutant in mutants
+                if any((mutant.file, line) in lines for line in range(lines_of(mutant)[0], lines_of(mutant)[1] + 1))]
+
+    before = [max((mutant for mutant in mutants if mutant.file == file and lines_of(mutant)[0] <= line), key=lines_of,
+                  default=None) for file, line in sorted(wrong)]
+    return on(wrong) or on(named) or [mutant for mutant in mutants if mutant in before]
 
 
 def build(folder, mutants, jobs):
