@@ -69,7 +69,8 @@ TEST_CASE("JSON: a value that is handed on is shared, and changed in one place o
   CHECK(*none == Json{{"a", 1}});
   CHECK(Json{{"in", none}}["in"]["a"] == 1);
   CHECK(JsonText(SharedJson::Object()) == "{}");
-  const std::vector<SharedJson> list = {other, SharedJson(), SharedJson(std::string("text")), SharedJson(0.5), {{"g", 2}}};
+  const std::vector<SharedJson> list = {
+      other, SharedJson(), SharedJson(std::string("text")), SharedJson(0.5), {{"g", 2}}};
   CHECK(JsonText(SharedJson(list)) == "[" + JsonText(other) + R"(,null,"text",0.5,{"g":2}])");
   CHECK(JsonText(SharedJson{{"all", list}, {"none", std::vector<SharedJson>()}}) ==
         R"({"all":)" + JsonText(SharedJson(list)) + R"(,"none":[]})");
