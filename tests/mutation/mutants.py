@@ -24,8 +24,8 @@ def bug(function, name, original, mutated, breaks, type=None, equivalent=None):
 
 # ---- The gate ----
 
-bug("Bound", "rounding-not-bounded", "Scalar(gate.theta()), &rounding_)", "Scalar(gate.theta()))",
-    "the errors are not upper bounds")
+bug("Bound", "rounding-not-bounded", "MeasureErrors(problem, law, f, a_, meter_, Scalar(gate.theta()), &rounding_)",
+    "MeasureErrors(problem, law, f, a_, meter_, Scalar(gate.theta()))", "the errors are not upper bounds")
 bug("NearestFriction", "beyond-the-limit",
     "if (bounded) mode.friction = measure.OfFriction(friction.Excess(i, at), at.force_unit);", "",
     "a contact that sticks has any friction")
@@ -197,7 +197,8 @@ bug("check_not_definite", "py-not-definite-zero", "any(x)", "True", "not-definit
 bug("check_not_in_range", "py-not-in-range-kernel", """equal(long_times(zip(*problem.A), y), [0] * len(y), "$.witness (y'A)", "y'A = 0")""",
     "None", "not-in-range: y'A may be anything")
 bug("in_dual_cone", "py-h-cone", "gN ** 2 >= mu ** 2 * sum(g[k] ** 2 for k in tangents)", "True", "h: dual cones without friction")
-bug("solved", "py-factors-definite", "need(pivot > 0", "need(pivot != 0", "factors: masses may be negative")
+bug("solved", "py-factors-definite", """need(pivot > 0, place, pivot, "a pivot > 0 of a definite block")""",
+    """need(pivot != 0, place, pivot, "a pivot > 0 of a definite block")""", "factors: masses may be negative")
 bug("factors", "py-factors-matrix", "product == problem.A[i][j]", "True", "factors: of any A")
 bug("factors", "py-factors-free", """equal(problem.b, b, "$.problem.b", "J w + c")""", "None", "factors: of any b")
 bug("check_not_h", "py-not-h-kernel", """equal(long_times(problem.A, v), [0] * len(v), "$.witness (A v)", "A v = 0")""", "None",

@@ -117,6 +117,8 @@ def by_hand():
     for number, row in enumerate(HAND, 1):
         if any(row.id == other.id for other in HAND[:number - 1]):
             raise Refused(f"{row.id}: an id that stands twice")
+        if any(text.count("(") != text.count(")") for text in (row.original, row.mutated)):
+            raise Refused(f"{row.id}: found a bracket alone, expected an expression or a statement")
         form = "statement" if row.original.endswith(";") else "expression"
         mutants.append(Mutant(number, row.id, *place(row, texts), row.mutated, form, row.type, row.breaks, row.equivalent))
     return mutants
