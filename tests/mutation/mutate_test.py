@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True
 
@@ -131,6 +132,13 @@ class Run(unittest.TestCase):
 
 
 class Hand(unittest.TestCase):
+    def test_a_row_is_a_whole_expression(self):
+        """Half of a call would not compile, or be no Python."""
+        for original, mutated in (("need(x > 0", "need(x != 0"), ("g(a), b)", "g(a))")):
+            row = mutate.HAND[0]._replace(original=original, mutated=mutated)
+            with mock.patch.object(mutate, "HAND", [row]), self.assertRaisesRegex(mutate.Refused, "a bracket alone"):
+                mutate.by_hand()
+
     def test_a_place_is_found_in_its_function_whatever_file_has_it(self):
         texts = {"a.cpp": SOURCE, "b.py": "def f(x):\n    return x < 1\n\n\ndef g(x):\n    return x < 1\n"}
         row = mutate.HAND[0]._replace(function="Clamp", original="x > most")
