@@ -317,7 +317,7 @@ TEST_CASE("robust: three independent rows hold a body, dependent ones and a body
     return found;
   };
   Scene<Rational> flat = SceneNamed("weight-on-two-pegs");  // its weight on three points of a level floor
-  GivenContact<Rational> contact = flat.contacts[0];
+  GivenContactIn<Plane, Rational> contact = flat.contacts[0];
   flat.contacts.clear();
   contact.normal = MakeVector2<Rational>(0, 1);
   for (const int x : {-1, 0, 1}) {

@@ -16,7 +16,7 @@ using namespace testing;
 
 // Positive definite, numbers so large that ties are improbable, one mu of a list or one per contact, b_N
 // negative with probability 3/5.
-ExactProblem RandomDefinite(int contacts, std::uint64_t seed) {
+ExactProblem DrawDefinite(int contacts, std::uint64_t seed) {
   Choices choices(seed);
   const int rows = 2 * contacts;
   const std::vector<Rational> palette = {0, Rational(1, 5), Rational(1, 2), 1, 2, 5, 10};
@@ -40,7 +40,7 @@ ExactProblem RandomDefinite(int contacts, std::uint64_t seed) {
 
 // 1/p of row p in every number, so that each row of the tableau has a unit of its own.
 ExactProblem OfFractions(int contacts, std::uint64_t seed) {
-  ExactProblem problem = RandomDefinite(contacts, seed);
+  ExactProblem problem = DrawDefinite(contacts, seed);
   for (auto& contact : problem.contacts) contact.mu += Rational(1, 7);
   for (int i = 0; i < problem.rows(); ++i) {
     problem.b[i] /= 2 * i + 3;
@@ -216,7 +216,7 @@ TEST_CASE("lemke: mean pivots on random problems are those of the notes, within 
   for (const auto& [contacts, mean] : {std::pair(2, 6.34), std::pair(3, 9.56), std::pair(4, 13.06)}) {
     std::int64_t pivots = 0;
     for (std::uint64_t index = 0; index < 200; ++index) {
-      const RunEnd<> verdict = lemke.Run(RandomDefinite(contacts, index));
+      const RunEnd<> verdict = lemke.Run(DrawDefinite(contacts, index));
       REQUIRE(verdict.outcome == Outcome::kSolved);
       pivots += verdict.statistics[Counter::kPivots];
     }
