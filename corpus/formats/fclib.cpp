@@ -34,10 +34,12 @@ void* Hdf5Symbol(const char* name) {
 // A function of <hdf5.h>.
 #define HDF5(function) reinterpret_cast<decltype(&::function)>(Hdf5Symbol(#function))
 
-// A type or class of HDF5, by the variable that holds it once HDF5 has begun.
+// A type or class of HDF5, by the variable that holds it once HDF5 has begun: that of the program, where it
+// links HDF5 itself, since a linker may put a copy there which the library takes.
 hid_t Hdf5Id(const char* variable) {
   STICTION_CHECK(HDF5(H5open)() >= 0, "HDF5 does not begin");
-  return *static_cast<const hid_t*>(Hdf5Symbol(variable));
+  const void* const linked = dlsym(RTLD_DEFAULT, variable);
+  return *static_cast<const hid_t*>(linked != nullptr ? linked : Hdf5Symbol(variable));
 }
 
 // H5F_ACC_RDONLY and H5F_ACC_TRUNC, whose macros call HDF5.

@@ -197,7 +197,8 @@ def copy_sources(target, mutants):
     """The sources, with the mutants; what is no longer there goes."""
     mutated, kept = mutated_files(mutants), set()
     folders = [path for name in SOURCES for path in (ROOT / name).rglob("*")
-               if path.is_file() and not {"__pycache__", "node_modules", "examples"} & set(path.parts)]
+               if path.is_file() and not {"__pycache__", "node_modules"} & set(path.parts)
+               and ROOT / "reports/examples" not in path.parents]
     for path in [*filter(Path.exists, (ROOT / "CMakeLists.txt", ROOT / "CITATION.cff")), *folders]:
         name = path.relative_to(ROOT)
         kept.add(target / name)
