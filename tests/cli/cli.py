@@ -66,7 +66,7 @@ def share(cases, n):
     return list(cases) if ALL else list(cases)[::n]
 
 
-def run(*arguments, cwd=None, timeout=120):
+def run(*arguments, cwd=None, timeout=600):
     done = subprocess.run([program, *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if "--json" in arguments and done.stdout:
