@@ -71,17 +71,11 @@ int RunRecords(const RecordsVerb& o) {
   for (const FrontierRecord& record : ReadRecords(FolderOf(o))) {
     const std::string fault = o.check ? FaultOf(record, o.limits) : "";
     faults += !fault.empty();
-    SharedJson row = {
-        {"frontier", record.frontier},
-        {"what", record.what},
-        {"objective", record.objective->name},
-        {"value", ToString(record.value)},
-        {"status", record.status},
-        {"command", record.command},
-        {"processor_seconds", record.processor_seconds},
-        {"random", record.random_value ? SharedJson(ToString(*record.random_value)) : SharedJson()},
-        {"random_evaluations", record.random_evaluations},
-        {"random_command", record.random_command}};
+    SharedJson row = HeadOf(record);
+    row.Add({{"processor_seconds", record.processor_seconds},
+             {"random", record.random_value ? SharedJson(ToString(*record.random_value)) : SharedJson()},
+             {"random_evaluations", record.random_evaluations},
+             {"random_command", record.random_command}});
     if (o.check) row.Add({{"fault", fault.empty() ? SharedJson() : SharedJson(fault)}});
     rows.push_back(std::move(row));
     if (o.json) continue;

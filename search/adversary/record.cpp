@@ -206,24 +206,22 @@ std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder) {
   return records;
 }
 
+SharedJson HeadOf(const FrontierRecord& record) {
+  return {{"frontier", record.frontier},     {"what", record.what},     {"objective", record.objective->name},
+          {"value", ToString(record.value)}, {"status", record.status}, {"command", record.command}};
+}
+
 std::string Print(const FrontierRecord& record) {
-  SharedJson json = {
-      {"format", "stiction-record"},
-      {"version", 1},
-      {"frontier", record.frontier},
-      {"what", record.what},
-      {"objective", record.objective->name},
-      {"value", ToString(record.value)},
-      {"status", record.status},
-      {"command", record.command},
-      {"build", record.build},
-      {"processor_seconds", record.processor_seconds},
-      {"random",
-       SharedJson{{"value", record.random_value ? SharedJson(ToString(*record.random_value)) : SharedJson()},
-                  {"evaluations", record.random_evaluations},
-                  {"command", record.random_command}}},
-      {"problem", ToJson(record.problem)},
-      {"certificate", record.certificate}};
+  SharedJson json = {{"format", "stiction-record"}, {"version", 1}};
+  json.Add(HeadOf(record));
+  json.Add({{"build", record.build},
+            {"processor_seconds", record.processor_seconds},
+            {"random", SharedJson{{"value", record.random_value ? SharedJson(ToString(*record.random_value))
+                                                                : SharedJson()},
+                                  {"evaluations", record.random_evaluations},
+                                  {"command", record.random_command}}},
+            {"problem", ToJson(record.problem)},
+            {"certificate", record.certificate}});
   if (record.bounds)
     json.Add({{"bounds", std::vector{ToString(record.bounds->first), ToString(record.bounds->second)}}});
   if (record.status == "proved") json.Add({{"proof", record.proof}});

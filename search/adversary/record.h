@@ -48,6 +48,8 @@ FrontierRecord ParseFrontierRecord(std::string_view text, const std::string& sou
 FrontierRecord ReadRecord(const std::filesystem::path& file);                          // InputError
 // Of a folder, in the order of their names. InputError if there is none.
 std::vector<FrontierRecord> ReadRecords(const std::filesystem::path& folder);
+// Its members from "frontier" to "command".
+SharedJson HeadOf(const FrontierRecord& record);
 std::string Print(const FrontierRecord& record);
 
 // A record of this problem: value and certificate made. InputError if the objective has no value there, or none

@@ -27,13 +27,14 @@ typedef struct stiction_solver_problem {
   const int* findex; /* rows; the normal's row of a tangent, -1 of others and under "box" */
 } stiction_solver_problem;
 
-/* law       what the forces satisfy, and what they are judged by:
- *             "frictionless"  normals alone; the problem has no tangents
- *             "box"           low <= f <= high; a >= 0 where f = low, a <= 0 where f = high, else a = 0
- *             "findex"        the same; bounds of tangents are mu times the normal forces that solve the
- * problem of the normals alone, as in ODE "pyramid"       the same; bounds of tangents are mu times the normal
- * forces of f itself "coulomb"       friction at most mu times the normal force, at the limit against the slip
- * accuracy  of what it calls solved: lenient errors up to it are accepted (solver/problem/lenient.h) */
+/* law: what the forces satisfy, and what they are judged by.
+ *   "frictionless"  normals alone; the problem has no tangents
+ *   "box"           low <= f <= high; a >= 0 where f = low, a <= 0 where f = high, else a = 0
+ *   "findex"        the same; bounds of tangents are mu times the forces of the normals alone, as in ODE
+ *   "pyramid"       the same; bounds of tangents are mu times the normal forces of f itself
+ *   "coulomb"       friction at most mu times the normal force, at the limit against the slip
+ *
+ * accuracy: of what it calls solved. Lenient errors up to it are accepted (solver/problem/lenient.h). */
 typedef struct stiction_solver_info {
   int interface;
   const char *name, *version, *law;

@@ -490,6 +490,8 @@ for claim in ("psd", "in-range", "h", "exists"):
     true_by("M in one block", IN_RANGE, factors=factors(JACOBIAN, [[[2, 0], [0, 4]]], FREE))
     true(claim, "by factors, of a block whose velocities act on each other", problem([1], [[2, -1], [-1, 1]], [-2, 4]),
          factors=factors(IDENTITY, [[[1, 1], [1, 2]]], FREE))
+    true(claim, "by factors, of as many blocks as J has entries", problem([1], [["1/2", 0], [0, "1/4"]], [-2, 4]),
+         factors=factors(IDENTITY, MASSES, FREE))
     false(claim, "by factors, the inverse without what couples them", problem([1], [[1, 0], [0, "1/2"]], [-2, 4]),
           factors=factors(IDENTITY, [[[1, 1], [1, 2]]], FREE))
     if claim != "in-range":

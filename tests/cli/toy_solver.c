@@ -73,6 +73,8 @@ int stiction_solver_solve(void* solver, const stiction_solver_problem* p, double
   const int rare = twins && b[0] < 0 && A[1] == 1, rarer = rare && n > 2 && b[2] < 0;
 #endif
   (void)rare, (void)rarer;
+  for (int i = 0; i < n && n == p->contacts; ++i) /* normals alone */
+    if (p->low[i] != 0 || !isinf(p->high[i]) || p->findex[i] != -1) return 0;
 #ifdef BUG_LIES /* calls no forces at all a solution */
   for (int i = 0; i < n; ++i) f[i] = 0;
   return 1;

@@ -5,12 +5,15 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <barrier>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,6 +27,7 @@
 #include "corpus/json.h"
 #include "corpus/machine.h"
 #include "corpus/record/kinds.h"
+#include "corpus/stopwatch.h"
 #include "corpus/store/store_rows.h"
 #include "solver/problem/check.h"
 #include "tests/scratch.h"
@@ -781,6 +785,25 @@ TEST_CASE("work: less time than none, by a clock that was set back, is none") {
   const Work expected{{"build"}, {.exact = 3}};
   CHECK(store.TotalWork() == expected);
   CHECK(Store::OpenToRead(scratch / "a.store").TotalWork() == expected);
+}
+
+TEST_CASE("work: time is that of the clock where no processor's can be read, and never more") {
+  const double before = ReadSeconds(CLOCK_MONOTONIC);
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  clockid_t gone = 0;
+  REQUIRE(clock_getcpuclockid(child, &gone) == 0);
+  const Stopwatch of_child(gone), of_clock(CLOCK_MONOTONIC), of_thread;
+  waitpid(child, nullptr, 0);
+  CHECK(std::isinf(ReadSeconds(gone)));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const double of_none = of_child.Seconds(), clock = of_clock.Seconds(), thread = of_thread.Seconds();
+  const double all = ReadSeconds(CLOCK_MONOTONIC) - before;
+  CHECK(of_none >= 0.02);
+  CHECK(of_none <= all);
+  CHECK(clock >= 0.02);
+  CHECK(clock <= all);
+  CHECK(thread <= all);  // it slept, and how long the rest took is not known
 }
 
 TEST_CASE("work: copies of a unit or block with other work are the same unit or block", "[slow]") {

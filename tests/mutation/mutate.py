@@ -45,10 +45,14 @@ SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "se
 DRAWN_FROM = ("solver", "certify", "search", "corpus")
 NOT_DRAWN_FROM = "certify/ipopt/"  # a program that includes nothing of the others
 # The tests of a run: C++ by folder, and programs that drive the program from outside.
-LABELS = ("solver", "certify", "search", "corpus", "model")
-PROGRAMS = ("attacks_test", "certificate_test", "coulomb_exact_test", "existence_test", "false_claims_test",
-            "false_loops_in_space_test", "formats_test", "limits_test", "outputs_test", "paths_test", "problem_test",
-            "replay_test", "solve_test", "store_test", "under_test_test")
+LABELS = ("solver", "certify", "search", "corpus", "scene", "model")
+PROGRAMS = ("adversary_test", "attacks_test", "certificate_test", "claims_test", "consistency_test", "coulomb_exact_test",
+            "critical_test", "damage_test", "existence_test", "explain_test", "factors_test", "false_claims_test",
+            "false_loops_in_space_test", "families_test", "formats_test", "input_test", "inputs_test", "kinds_test",
+            "limits_test", "loops_in_space_test", "outputs_test", "package_test", "paths_test", "problem_test",
+            "problems_test", "questions_test", "replay_test", "residuals_test", "rests_test", "running_test", "safety_test",
+            "scene_test", "schema_test", "search_test", "simulate_test", "solve_test", "space_test", "store_test",
+            "tamper_test", "terminal_test", "under_test_test", "usage_test")
 TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 PYTHON = '''import os

@@ -323,12 +323,13 @@ Campaign Adversarial(const char* objective, const char* optimizer) {
   return campaign;
 }
 
-void Run(const Campaign& campaign, const std::filesystem::path& store, int threads, std::int64_t problems) {
+SearchReport Run(const Campaign& campaign, const std::filesystem::path& store, int threads,
+                 std::int64_t problems) {
   SearchOptions options;
   options.store = store;
   options.threads = threads;
   options.problems = problems;
-  RunSearch(campaign, IdentityOf(campaign), options, [](const SearchProgress&) {});
+  return RunSearch(campaign, IdentityOf(campaign), options, [](const SearchProgress&) {});
 }
 
 void RequireEqualStores(const std::filesystem::path& left, const std::filesystem::path& right) {
@@ -411,6 +412,26 @@ TEST_CASE("adversary: a store says what was best, and no rate") {
   if (best.front().worth.value)
     CHECK(json.at("best").at(0).at("value").get<double>() == *best.front().worth.value);
   for (const Finding& finding : store.Findings()) CHECK(finding.kind == "cycle");
+}
+
+TEST_CASE("adversary: progress counts what the store holds, begun or gone on with") {
+  const testing::Scratch scratch;
+  const Campaign campaign = Adversarial("period", "evolution");
+  for (const std::int64_t units : {4, 6}) {
+    const SearchReport report = Run(campaign, scratch / "store", 1, 150 * units);
+    const Record total = Store::OpenToRead(scratch / "store").Total();
+    std::int64_t findings = 0;
+    for (const auto& [signature, count] : total.signatures) findings += count;
+    CHECK(report.end == SearchEnd::kDone);
+    CHECK(findings > 0);
+    CHECK(report.progress.findings == findings);
+    CHECK(report.progress.groups == std::ssize(total.signatures));
+    CHECK(report.progress.units_done == units);
+    CHECK(report.progress.units_wanted == units);
+    CHECK(report.progress.problems >= 140 * units);
+    CHECK(report.progress.problems_before == (units == 4 ? 0 : report.progress.problems * 4 / 6));
+    CHECK(report.progress.pending == 0);
+  }
 }
 
 TEST_CASE("adversary: damaged elites are refused by their place") {

@@ -20,8 +20,10 @@
 #include "search/under_test/reproducer.h"
 #include "search/under_test/simple_scene.h"
 #include "search/under_test/solver_process.h"
+#include "search/under_test/solver_unit.h"
 #include "search/units/regenerate.h"
 #include "tests/scratch.h"
+#include "tests/support.h"
 
 namespace stiction {
 namespace {
@@ -521,6 +523,54 @@ TEST_CASE("under test: a scene is made simpler while the solver fails alike on i
   CHECK(PosedFileOf(*smooth, SolverLaw::kFrictionless, "smooth").problem.rows() == 2);
   campaign.generators = {GeneratorId::kIntegers};
   CHECK_FALSE(SimpleSceneOf(finding, campaign, any, never).has_value());
+}
+
+TEST_CASE("under test: what is minimized fails in the same way and is what bodies make") {
+  // It crashes in one way where two contacts are coupled, in another elsewhere; so does much that no bodies
+  // make.
+  const testing::Scratch folder;
+  SolverProcess process = InPython(
+      folder, "A = json.loads(line)['A']; os._exit(3 if len(A) == 2 and A[0][1] >= 4 else 4)", "'1'", "1e-6");
+  Campaign campaign;
+  campaign.solver = process.about();
+  campaign.generators = {GeneratorId::kIntegers};
+  campaign.contacts = {2};
+  ExactProblem problem;
+  problem.contacts.assign(2, {ContactKind::kFrictionless, 0, {}});
+  problem.A = testing::Matrix({{8, 4}, {4, 8}});
+  problem.b = testing::Vector({-9, -7});
+  ProblemFile file;
+  file.problem = problem;
+  Finding finding;
+  finding.signature = "crash-exit-3-2c";
+  finding.kind = "crash";
+  finding.generator = "integers";
+  finding.contacts = 2;
+  finding.problem = JsonText(ToJson(file));
+  finding.facts = R"({"library": false, "found": {"contacts": 2, "kind": "crash", "what": "exit-3"}})";
+  const auto finished = FinishSolverFinding(finding, campaign, process, [] { return false; });
+  REQUIRE(finished.has_value());
+  REQUIRE_FALSE(finished->minimized.empty());
+  CHECK(Json::parse(finished->facts).at("minimized").at("what") == "exit-3");
+  const ExactProblem small = ParseProblem(finished->minimized, "minimized").problem;
+  REQUIRE(small.rows() == 2);
+  CHECK(small.A(0, 0) < 8);  // simpler than it was
+  CHECK(small.A(0, 1) == 4);
+  CHECK(small.A(0, 0) * small.A(1, 1) >= 16);
+  CHECK(small.A(0, 0) > 0);
+  CHECK((small.b[0] != 0 || small.b[1] != 0));
+
+  // Of rows that nothing moves every failure of two contacts would be made.
+  SolverProcess any = InPython(folder, "os._exit(len(json.loads(line)['A']))", "'2'", "1e-6");
+  campaign.solver = any.about();
+  finding.signature = "crash-exit-2-2c";
+  finding.facts = R"({"library": false, "found": {"contacts": 2, "kind": "crash", "what": "exit-2"}})";
+  const auto least = FinishSolverFinding(finding, campaign, any, [] { return false; });
+  REQUIRE(least.has_value());
+  const ExactProblem moved = ParseProblem(least->minimized, "minimized").problem;
+  CHECK(moved.A(0, 1) == 0);
+  CHECK(moved.A(0, 0) > 0);
+  CHECK(moved.A(1, 1) > 0);
 }
 
 TEST_CASE("under test: a campaign names the solver, and is another with another one") {
