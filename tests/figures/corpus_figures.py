@@ -284,10 +284,14 @@ def mutants(program):
     head = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     words = ["test", "--mutants", str(program.size(60)), "--seed", str(int(head, 16)), "--hand"]  # others for every commit
     program.show(f"./run {' '.join(words)}")
-    done = subprocess.run([ROOT / "run", *words], capture_output=True, text=True)
-    told = re.search(r"^\| \| bugs \|.*", done.stdout, re.M | re.S)
+    lines = []
+    with subprocess.Popen([ROOT / "run", *words], stdout=subprocess.PIPE, text=True) as run:
+        for line in run.stdout:  # an hour, of which each bug says a line
+            lines.append(line)
+            print(line, end="", file=sys.stderr, flush=True)
+    told = re.search(r"^\| \| bugs \|.*", "".join(lines), re.M | re.S)
     if not told:
-        sys.exit(f"mutants: exit {done.returncode}\n{done.stdout}{done.stderr}")
+        sys.exit(f"mutants: exit {run.returncode}")
     return told[0].strip()
 
 
