@@ -2,7 +2,6 @@
 // Complete driving and Lemke's method, piece by piece.
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 #include "certify/exact/exact.h"
@@ -10,6 +9,7 @@
 #include "cli/narration/narrate_text.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "solver/complete/cells_json.h"
 
 namespace stiction {
 namespace {
@@ -30,18 +30,9 @@ std::vector<std::string> CellsOf(const std::string& word, bool in_space) {
 
 // "S (sticks)": a cell and what its contact does.
 std::string CellText(const std::string& cell) {
-  constexpr std::array<std::pair<char, const char*>, 9> kDoes = {{{'B', "breaks"},
-                                                                  {'S', "sticks"},
-                                                                  {'I', "sticks"},
-                                                                  {'+', "at its upper limit"},
-                                                                  {'-', "at its lower limit"},
-                                                                  {'V', "at a corner"},
-                                                                  {'E', "on an edge"},
-                                                                  {'0', "without friction"},
-                                                                  {'H', "held"}}};
-  const auto found =
-      std::find_if(kDoes.begin(), kDoes.end(), [&cell](const auto& row) { return row.first == cell.front(); });
-  return found == kDoes.end() ? cell : fmt::format("{} ({})", cell, found->second);
+  static const Json kDoes = ParseJson({reinterpret_cast<const char*>(kCellsJson), sizeof kCellsJson}, "cells");
+  const auto does = kDoes.find(cell.substr(0, 1));
+  return does == kDoes.end() ? cell : fmt::format("{} ({})", cell, does->get<std::string>());
 }
 
 const char* SignText(int sign) { return sign > 0 ? "> 0" : sign < 0 ? "< 0" : "0"; }

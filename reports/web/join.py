@@ -57,7 +57,11 @@ class Joined:
             scope = "$" + re.sub(r"\W", "_", f"{other.parent.name}_{other.stem}")
             if not other.is_file():
                 fail(file, text, found.start(), f"found no {found['path']}")
-            if other not in self.inputs:
+            if other not in self.inputs and other.suffix == ".json":
+                value = json.loads(self.read(other))
+                self.exports[other] = {name: name for name in value}
+                self.before += f"const {scope} = {json.dumps(value)};\n"
+            elif other not in self.inputs:
                 body = self.module(other)
                 given = ", ".join(f"{name}: {own}" for name, own in self.exports[other].items())
                 self.before += f"const {scope} = (() => {{\n{body}return {{{given}}};\n}})();\n"

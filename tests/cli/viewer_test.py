@@ -97,8 +97,9 @@ class Joined(cli.TestCase):
             self.assertTrue(str(refused.exception).startswith(f"{self.folder}/{line}"), refused.exception)
 
     def test_a_formula_without_its_mathml_is_refused(self):
-        web = self.folder / "web"
+        web = self.folder / WEB
         shutil.copytree(cli.ROOT / WEB, web, ignore=shutil.ignore_patterns("node_modules"))
+        (self.folder / "solver").symlink_to(cli.ROOT / "solver")
         self.assertIn("<msub><mi>f</mi><mi>N</mi></msub>", join.page("viewer", web)[0])
         page = web / "src/viewer.html"
         page.write_text(page.read_text() + "\\(e^x\\)")
@@ -106,13 +107,13 @@ class Joined(cli.TestCase):
             join.page("viewer", web)
         self.assertIn(r"formulas.json has no MathML of \(e^x\)", str(refused.exception))
 
-    def test_cells_mean_the_same_in_a_page_and_in_a_terminal(self):
-        page, program = [re.search(start + r"(.*?)\n?}+;\n", (cli.ROOT / file).read_text(), re.S)[1] for start, file in (
-            ("kCells = {", f"{WEB}/src/steps.js"), ("kDoes = {{", "cli/narration/narrate_path.cpp"))]
-        told = dict(re.findall(r"^ *'?(.)'?: '(.*)',?$", page, re.M))
-        self.assertEqual(told.pop("?"), "not yet")
-        self.assertEqual(told, dict(re.findall(r"{'(.)', \"(.*?)\"", program)))
-        self.assertEqual(len(told), 9)
+    def test_a_module_may_be_an_object(self):
+        self.file("cells.json", '{"S": "sticks", "+": "slips"}')
+        joined = join.Joined(self.files(main="import * as does from './cells.json';\nimport {S} from './cells.json';\n"))
+        self.assertIn('= {"S": "sticks", "+": "slips"};', joined.text)
+        self.assertEqual(joined.text.count("sticks"), 1)
+        with self.assertRaises(SystemExit):
+            join.Joined(self.files(main="import {B} from './cells.json';\n"))
 
     def test_the_packages_are_those_of_the_lock_file_which_names_no_address(self):
         lock = json.loads((cli.ROOT / WEB / "package-lock.json").read_text())["packages"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens in a step of a run, in words: those of `stiction replay --step`, which names the paper's
 // sections.
+import * as does from '../../../solver/complete/cells.json';  // what contacts of a cell do, by its letter
 import {element} from './dom.js';
 import {number} from './numbers.js';
 
@@ -74,20 +75,6 @@ function sets(run, state) {
               members.length === 0 ? ' ∅' : ` ${members.join(', ')}`)));
 }
 
-// What cells mean, by their letter: as in cli/narration/narrate_path.cpp.
-const kCells = {
-  '?': 'not yet',
-  B: 'breaks',
-  S: 'sticks',
-  I: 'sticks',
-  '+': 'at its upper limit',
-  '-': 'at its lower limit',
-  V: 'at a corner',
-  E: 'on an edge',
-  0: 'without friction',
-  H: 'held'
-};
-
 // Of complete driving: the cell of each contact along this piece. Those of one cell share a mark.
 function cells(step) {
   if (step.word === undefined || step.word === '') return null;
@@ -98,7 +85,7 @@ function cells(step) {
       ...[...contacts].map(
           ([cell, numbers]) => element(
               'span', {class: cell === '?' ? 'empty' : null}, element('b', {}, cell.replace('-', '−')),
-              ` ${kCells[cell[0]] ?? 'cell'}: ${numbers.join(', ')}`)));
+              ` ${cell === '?' ? 'not yet' : does[cell[0]] ?? 'cell'}: ${numbers.join(', ')}`)));
 }
 
 // Why a variable is driven; its cells stand below.
