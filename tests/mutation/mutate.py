@@ -53,7 +53,7 @@ PROGRAMS = ("adversary_test", "attacks_test", "certificate_test", "claims_test",
             "problems_test", "questions_test", "replay_test", "residuals_test", "rests_test", "running_test", "safety_test",
             "scene_test", "schema_test", "search_test", "simulate_test", "solve_test", "space_test", "store_test",
             "tamper_test", "terminal_test", "under_test_test", "usage_test")
-TARGETS = ("stiction", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
+TARGETS = ("stiction", "stiction-bench", "stiction-ipopt", *(f"test_{label}" for label in LABELS))
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
 PYTHON = '''import os
 _reached = os.environ.get("STICTION_REACHED")
