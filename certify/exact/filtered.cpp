@@ -22,10 +22,6 @@
 #include "solver/solve.ipp"
 
 namespace stiction {
-
-extern template class PublishedAlgorithm<Rational>;  // in exact.cpp
-extern template class LemkeAlgorithm<Rational>;
-
 namespace {
 
 // The rows that may follow from others, where the rung asks for them: the first leaves that to the second.
