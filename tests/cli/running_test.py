@@ -3,6 +3,7 @@
 
 import os
 import pty
+import select
 import signal
 import subprocess
 import time
@@ -258,6 +259,7 @@ class Benches(Background):
         line = bench.stderr.readline().decode()
         self.assertGreaterEqual(time.monotonic() - start, 10)
         self.assertRegex(line, r"^\d\d s, \d+ %: 1 of 1, problems: [\d,]+ of 1,000,000,000\n$")
+        self.assertEqual(select.select([bench.stderr], [], [], 3)[0], [], "a second line, before ten more seconds")
 
     def test_a_log_has_nothing_of_what_takes_no_time(self):
         done = self.succeeds("bench", "--suite", "gate-cost", "--contacts", 2, "--problems", 2)
