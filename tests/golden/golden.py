@@ -40,7 +40,8 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RECORDED, CHANGES = HERE / "recorded", HERE / "CHANGES.md"
 SECONDS = 600  # of one call
-ENVIRONMENT = {"PATH": os.environ["PATH"], "COLUMNS": "100", "LC_ALL": "C.UTF-8", "PYTHONDONTWRITEBYTECODE": "1"}
+ENVIRONMENT = {"PATH": os.environ["PATH"], "COLUMNS": "100", "LC_ALL": "C.UTF-8", "PYTHONDONTWRITEBYTECODE": "1",
+               **{name: value for name, value in os.environ.items() if name in ("STICTION_MUTANT", "STICTION_REACHED")}}
 # Keys of answers that are another at every run or in every build.
 PASSING = {"seconds", "processor_seconds", "version", "build", "builds", "commit", "machine", "store_bytes"}
 

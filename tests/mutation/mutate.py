@@ -44,7 +44,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bench", "certify", "cli", "cmake", "corpus", "reports", "scene", "search", "solver", "tests")
 DRAWN_FROM = ("solver", "certify", "search", "corpus")
 NOT_DRAWN_FROM = "certify/ipopt/"  # a program that includes nothing of the others
-# The tests of a run: C++ by folder, and programs that drive the program from outside.
+# The tests of a run: C++ by folder, programs that drive the program from outside, and what is recorded that it says.
 LABELS = ("solver", "certify", "search", "corpus", "scene", "model")
 PROGRAMS = ("adversary_test", "attacks_test", "certificate_test", "claims_test", "consistency_test", "coulomb_exact_test",
             "critical_test", "damage_test", "existence_test", "explain_test", "factors_test", "false_claims_test",
@@ -271,7 +271,7 @@ def tests_of(binary):
     for entry in json.loads(listed.stdout)["tests"]:
         properties = {item["name"]: item["value"] for item in entry.get("properties", [])}
         program = re.fullmatch("program: (.*)", entry["name"])
-        wanted = program[1] in PROGRAMS if program else set(properties.get("LABELS", [])) & set(LABELS)
+        wanted = program[1] in PROGRAMS if program else set(properties.get("LABELS", [])) & {*LABELS, "golden"}
         if wanted and "command" in entry:
             name = re.sub(r"^(\w+): *", r"\1: ", entry["name"])  # blanks behind a prefix can get lost
             tests.append(Test(name, entry["command"], properties.get("WORKING_DIRECTORY", binary),

@@ -323,6 +323,17 @@ TEST_CASE("campaign: the same policy twice is refused") {
 
 // ---- Schedule --------------------------------------------------------------------------------
 
+TEST_CASE("campaign: over float in the plane alone") {
+  Campaign campaign;
+  campaign.arithmetic = Arithmetic::kFloat;
+  campaign.generators = {GeneratorId::kPsd};
+  CHECK_NOTHROW(RequireConsistent(campaign));
+  campaign.generators = {GeneratorId::kPsd, GeneratorId::kSpace};
+  CHECK_THROWS_WITH(RequireConsistent(campaign), Contains("found float for generator space, expected double"));
+  campaign.arithmetic = Arithmetic::kDouble;
+  CHECK_NOTHROW(RequireConsistent(campaign));
+}
+
 TEST_CASE("campaign: in space policies that are built there, and no objective") {
   const auto refused = [](const std::string& more) {
     const CampaignFile file(With(R"("generators": ["psd", "space"], )" + more));
