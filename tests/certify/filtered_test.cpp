@@ -9,6 +9,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/existence.h"
 #include "certify/claims/witness.h"
+#include "certify/exact/dependent_rows.h"
 #include "certify/exact/exact.h"
 #include "certify/exact/nearby_words.h"
 #include "certify/exact/verify_solution.h"
@@ -376,6 +377,19 @@ TEST_CASE("filtered: what doubles end in is certified: between ends around a sol
   CHECK(exact > 100);
   CHECK(same > 50);
   CHECK(std::holds_alternative<std::monostate>(CertifyDoubles("complete", NoSolution(), {})));
+}
+
+TEST_CASE("filtered: a row follows from others where its entries of A and of b both do") {
+  ExactProblem problem =
+      MakeProblem({1, 1}, {{1, 2, 3, 0}, {2, 4, 6, 0}, {3, 6, 9, 0}, {0, 0, 0, 1}}, {1, 2, 4, 0});
+  ExactDependentRows rows(problem);
+  CHECK(rows.Follows({true, false, false, false}, 1));
+  CHECK_FALSE(rows.Follows({true, false, false, false}, 2));  // b is 4, not 3
+  CHECK_FALSE(rows.Follows({true, true, false, false}, 2));
+  CHECK_FALSE(rows.Follows({true, true, true, false}, 3));
+  CHECK_FALSE(rows.Follows({false, false, false, true}, 0));
+  CHECK_FALSE(rows.Follows({false, false, false, false}, 0));
+  CHECK(rows.Follows({true, false, true, false}, 1));
 }
 
 }  // namespace

@@ -293,6 +293,9 @@ TEST_CASE("problem file: A, b and mu alone are static contacts") {
        "2 or 3: 6 rows fit both"},
       {R"({"A": [[1]], "b": [0], "mu": 1})", "dimension", kNothing, "2 or 3: 1 rows fit neither"},
       {WithMembers(R"("mu": 1)"), "mu", "mu beside contacts", "one of the two: each contact has its own mu"},
+      // Contacts that are no list tell no dimension; mu does.
+      {R"({"contacts": 5, "mu": [1, 1], "A": {"size": 6, "entries": []}, "b": [0, 0, 0, 0, 0, 0]})", "mu",
+       "mu beside contacts", "one of the two: each contact has its own mu"},
   });
 }
 

@@ -286,6 +286,14 @@ TEST_CASE("adversary: a value over doubles that rationals deny is no value") {
   CHECK(attempt.found().confirmations == 1);
   attempt.Confirm(assessed);
   CHECK(attempt.found().confirmations == 1);
+  // One that they confirm is not denied.
+  Attempt confirming(Problem("steps", GeneratorId::kPsd, 2, 1));
+  Assessed confirmed = confirming.Look(RandomCandidate({GeneratorId::kPsd, 2, {1, 1}, false, {}}, 7));
+  REQUIRE(confirmed.worth.value.has_value());
+  confirming.Confirm(confirmed);
+  CHECK(confirmed.worth.value.has_value());
+  CHECK(confirming.found().confirmations == 1);
+  CHECK(confirming.found().denied == 0);
 }
 
 TEST_CASE("adversary: elites keep one of every behaviour, the better one, and no more than there is room for") {
