@@ -16,6 +16,8 @@ times, builds and versions are left out. Groups:
     certify     a certificate of every claim, or why there is none
     check       the false and true certificates of tests/certify/false_claims_test.py, by all checkers
     search      three small stores: all tables but the times, the report's numbers, its text
+    formats     small problems of the corpus in every format of others, and read from there again
+    scenes      every scene for a few steps: where it is at the end
     verbs       --json, help and refusals of the other verbs
 
 Standard library only. Some minutes on two cores; nothing is written outside of a scratch folder but by --accept.
@@ -34,6 +36,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from fractions import Fraction
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -174,6 +177,43 @@ def search(program, scratch):
         yield name, made
 
 
+STORAGES = {"siconos-lcp": ("dense", "blocks", "columns", "triplet"), "siconos-fc": ("dense", "blocks", "columns", "triplet"),
+            "fclib": ("columns", "rows", "triplet")}
+FEW_ROWS = 6  # of a problem that is written in every format
+
+
+def formats(program, scratch):
+    for file, problem in problems(*PLANAR, *SPATIAL):
+        if len(problem.get("b", [])) > FEW_ROWS:
+            continue
+        for to, storage in ((to, storage) for to, storages in STORAGES.items() for storage in storages):
+            def written(file=file, to=to, storage=storage):
+                out = Path(scratch, f"{name_of(file)}-{to}.{storage}".replace("/", "-") + (".hdf5" if to == "fclib" else ".dat"))
+                said = program.said("export", file, "--format", to, "--storage", storage, "--round", "-o", out)
+                if not out.exists():
+                    return said
+                text = "" if to == "fclib" else out.read_text()
+                again = program.said("import", out, "-o", "-")
+                out.unlink()
+                return f"{said}\n{text}\n{again}"
+            yield f"{name_of(file)} {to} {storage}", written
+
+
+STEPS, LAST = 60, 4  # of a scene; and lines of each table that are recorded
+
+
+def scenes(program, scratch):
+    for file in sorted((ROOT / "corpus/scenes").glob("*.json")) + sorted((ROOT / "corpus/scenes/space").glob("*.json")):
+        def stepped(file=file):
+            out, step = Path(scratch, name_of(file).replace("/", "-")), Fraction(str(json.loads(file.read_text()).get("step", "1/100")))
+            said = program.said("simulate", file, "--seconds", float(STEPS * step), "--frames", 1, "--no-svg", "-t", 1, "-o", out)
+            tables = sorted(out.glob("*.csv"))
+            lines = [line for table in tables for line in (table.name, *table.read_text().splitlines()[-LAST:])]
+            shutil.rmtree(out, ignore_errors=True)
+            return "\n".join((said, *lines))
+        yield name_of(file), stepped
+
+
 REFUSED = [("solve", "none.json"), ("solve",), ("replay", "corpus/two-contact-cycle.json", "--policy", "ties=none"),
            ("certify", "corpus/two-contact-cycle.json", "--claim", "nothing", "-o", "-"), ("serch",),
            ("solve", "corpus/two-contact-cycle.json", "--method", "guess"), ("bench", "--suite", "none"),
@@ -198,7 +238,8 @@ def verbs(program, scratch):
         yield f"assemble {scene.stem}", ("assemble", scene, "-o", "-")
 
 
-GROUPS = {"solve": solve, "replay": replay, "certify": certify, "check": check, "search": search, "verbs": verbs}
+GROUPS = {"solve": solve, "replay": replay, "certify": certify, "check": check, "search": search,
+          "formats": formats, "scenes": scenes, "verbs": verbs}
 
 
 # --- Recording and comparing -----------------------------------------------------------------------------------------
