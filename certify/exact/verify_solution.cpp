@@ -161,14 +161,14 @@ std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactPro
     if (full != 0) least = std::min<Rational>(least, friction.power * friction.power / full);
   });
   if (least == 1) return Rational(1);
-  mpz_class root = (least.get_num() << (2 * kPlaces)) / least.get_den();
-  root = sqrt(root);
-  mpz_class gap = (mpz_class(1) << kPlaces) - root;  // 1 - c, in units of 2^-200
-  const int spare = static_cast<int>(mpz_sizeinbase(gap.get_mpz_t(), 2)) - 8;
+  using F = Fractions<Rational>;
+  using Integer = F::Integer;
+  const Integer one = Integer(1) << kPlaces;
+  const Integer square = (F::Numerator(least) << (2 * kPlaces)) / F::Denominator(least);
+  Integer gap = one - Integer(sqrt(square));  // 1 - c, in units of 2^-200
+  const int spare = static_cast<int>(BitLength<Integer>::Of(gap)) - 8;
   if (spare > 0) gap = ((gap >> spare) + 1) << spare;
-  Rational bound(mpz_class((mpz_class(1) << kPlaces) - gap), mpz_class(1) << kPlaces);
-  bound.canonicalize();
-  return bound < 0 ? Rational(0) : bound;
+  return std::max(Rational(0), F::Quotient(one - gap, one));
 }
 
 }  // namespace stiction

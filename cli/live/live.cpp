@@ -77,6 +77,7 @@ SharedJson RunToJson(const JsonPlace& place) {
   RequireFew(file);
   const std::string method = place.Required("method", "text").Text("text");
   Request request{.method = method,
+                  .law = FrictionLaw::kBaraff,  // as `replay` where none is asked for
                   .policy = ParsePolicy(place.Required("policy", "text").Text("text")),
                   .limits = kLiveLimits,
                   .trace = true};

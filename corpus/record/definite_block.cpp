@@ -74,6 +74,7 @@ bool IsProvedIndefinite(const Matrix& M, const Eigen::MatrixXd& rounded) {
   return x.dot(y) <= 0;
 }
 
+#ifndef STICTION_BOOST_RATIONALS
 class FlintMatrix {
  public:
   FlintMatrix(int rows, int columns) { fmpq_mat_init(matrix_, rows, columns); }
@@ -96,6 +97,7 @@ class FlintMatrix {
  private:
   fmpq_mat_t matrix_;
 };
+#endif
 
 }  // namespace
 

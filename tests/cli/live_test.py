@@ -104,6 +104,16 @@ def answers(requests):
 
 
 @unittest.skipIf(cli.SHORT, "the program is the same in every build")
+class Sources(cli.TestCase):
+    def test_a_module_can_be_made_of_them(self):
+        """At night one is. What compiles with GMP alone is found before."""
+        if cli.ALL:
+            self.skipTest("one is made")
+        done = subprocess.run([sys.executable, cli.ROOT / "cli/live/build.py", "--check", "c++"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+@unittest.skipIf(cli.SHORT, "the program is the same in every build")
 class Live(cli.TestCase):
     @classmethod
     def setUpClass(cls):
