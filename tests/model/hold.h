@@ -297,17 +297,22 @@ inline std::string FaultOfText(const Case& drawn) {
   return fault.empty() ? FaultOfCopy("the entries of factors", problem, DenseOf(read.entries())) : fault;
 }
 
-// What a format can hold: its kinds of contacts, and whether entries must be those of their mirror image.
+// What a format can hold: its kinds of contacts; and in fclib, [W V; V' R], entries between static and
+// bilateral contacts are those of their mirror image.
 inline bool Holds(const std::string& format, const ExactProblem& problem) {
   bool bilateral = false;
+  int before = 0;  // rows of static contacts
   for (const auto& contact : problem.contacts) {
     const bool is_static = contact.kind == ContactKind::kStatic;
     if (format == "siconos-lcp" && contact.kind != ContactKind::kFrictionless) return false;
     if (format == "siconos-fc" && !is_static) return false;
     if (format == "fclib" && (bilateral || !is_static) && contact.kind != ContactKind::kBilateral) return false;
     bilateral = bilateral || contact.kind == ContactKind::kBilateral;
+    before += is_static ? problem.dimension : 0;
   }
-  return format != "fclib" || !bilateral || IsSymmetric(problem);
+  const int behind = problem.rows() - before;
+  return format != "fclib" ||
+         problem.A.topRightCorner(before, behind) == problem.A.bottomLeftCorner(behind, before).transpose();
 }
 
 // Numbers that are no doubles are rounded where that is allowed; those that are need not be.
