@@ -39,7 +39,7 @@ TEST_CASE("policy ends: a claim of all holds if it does of each, and fails of on
 }
 
 TEST_CASE(
-    "policy ends: the example refutes if one does; the published reading stands for others, else the first") {
+    "policy ends: the example refutes where one does, and is of the published reading if that is among them") {
   const PolicyEnds first = End({"file=yes"}, Outcome::kSolved), paper = End({"paper"}, Outcome::kSolved),
                    last = End({"ties=contacts"}, Outcome::kSolved),
                    open = End({"apex=suspended"}, Outcome::kLimit);
