@@ -19,8 +19,9 @@ ROOT = HERE.parents[1]
 HEADERS = {"boost": "/usr/include/boost", "Eigen": "/usr/include/eigen3/Eigen", "nlohmann": "/usr/include/nlohmann",
            "fmt": "/usr/include/fmt"}
 EMBEDDED = {"solver/complete/cells.json": "kCellsJson"}  # as the build embeds them (embed in CMakeLists.txt)
-MEANT = ["-std=c++20", "-DNDEBUG", "-DSTICTION_BOOST_RATIONALS", "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY", "-I", ROOT, "-I", "."]
-COMPILE = [*MEANT, "-O2", "-fno-rtti", "-fwasm-exceptions", "-isystem", "headers", f"-ffile-prefix-map={ROOT}/="]
+# Of the module, and of a check.
+OF_BOTH = ["-std=c++20", "-DNDEBUG", "-DSTICTION_BOOST_RATIONALS", "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY", "-I", ROOT, "-I", "."]
+COMPILE = [*OF_BOTH, "-O2", "-fno-rtti", "-fwasm-exceptions", "-isystem", "headers", f"-ffile-prefix-map={ROOT}/="]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]
 
@@ -48,7 +49,7 @@ def run(scratch, *words):
 def check(compiler):
     with tempfile.TemporaryDirectory() as scratch:
         write_sources(scratch)
-        run(scratch, compiler, "-fsyntax-only", *MEANT, "-isystem", "/usr/include/eigen3", "all.cpp")
+        run(scratch, compiler, "-fsyntax-only", *OF_BOTH, "-isystem", "/usr/include/eigen3", "all.cpp")
 
 
 def module():
@@ -65,6 +66,8 @@ def module():
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != (3 if "--check" in sys.argv else 2):
+        sys.exit(__doc__)
     if sys.argv[1] == "--check":
         sys.exit(check(sys.argv[2]))
     if shutil.which("emcc") is None:

@@ -803,7 +803,7 @@ TEST_CASE("work: time is that of the clock where no processor's can be read, and
   CHECK(of_none <= all);
   CHECK(clock >= 0.02);
   CHECK(clock <= all);
-  CHECK(thread <= all);  // it slept, and how long the rest took is not known
+  CHECK(thread <= all);
 }
 
 TEST_CASE("work: copies of a unit or block with other work are the same unit or block", "[slow]") {
