@@ -23,8 +23,8 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/answer_json.h"
+#include "certify/exact/bodies.h"
 #include "certify/exact/neighbour.h"
-#include "certify/exact/newton_bodies.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
 #include "cli/narration/explained.h"
@@ -261,7 +261,7 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   wanted.request.sides = sides;
   SetNumbers(wanted.request.limits, numbers);
   SetNumbers(wanted.request.tolerances, numbers);
-  const AnyProblem asked = method == kNewtonBodies ? InFactors(problem.file()) : problem.problem();
+  const AnyProblem asked = IsOfBodies(method) ? InFactors(problem.file()) : problem.problem();
   Request request = RequestOf(wanted, asked, kSource);
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;

@@ -4,7 +4,6 @@
 #include "solver/complete/complete.ipp"
 #include "solver/floating_methods.ipp"
 #include "solver/lemke/lemke.ipp"
-#include "solver/numeric/body_newton.ipp"
 #include "solver/numeric/coulomb.ipp"
 #include "solver/numeric/fast.ipp"
 #include "solver/numeric/proximal.ipp"
@@ -20,7 +19,6 @@ template class PublishedInSpace<double>;
 template class CompleteDriving<double>;
 template class LemkeAlgorithm<double>;
 template class FastSolver<double>;
-template class BodyNewton<double>;
 template class CoulombSolver<double>;
 template class CoulombSolver<double, SparseContactProblem<double>>;
 template class ProximalNewton<double>;

@@ -187,7 +187,7 @@ Json MeasureWallGrowth(int dimension, const PeersOptions& o) {
     Choices choices(ProblemSeed(o.seed, 6000 + width, 0));
     const auto wall = WallInFactors(width, width, {.dimension = dimension}, choices);
     const int contacts = static_cast<int>(wall.contacts.size());
-    const Growth growth = Grow(wall, BodyNewton<double>());
+    const Growth growth = Grow(wall, BodyNewton());
     if (growth.solved) {
       log_size.push_back(std::log(contacts));
       log_time.push_back(std::log(growth.seconds));

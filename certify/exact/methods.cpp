@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "certify/exact/bodies.h"
 #include "certify/exact/enumerate.h"
 #include "certify/exact/feasibility_nlp.h"
 #include "certify/exact/nearby_words.h"
-#include "certify/exact/newton_bodies.h"
 #include "certify/exact/qp.h"
 #include "certify/exact/solve.h"
 #include "certify/exact/space.h"
@@ -243,7 +243,7 @@ template Answer<Rational> Solve(const ExactProblem&, const Request&);
 template const ExactMethod* FindMethod(std::string_view);
 
 std::span<const Method<double>> MethodsOverDoubles() {
-  static const std::array rows = {NewtonBodiesRow(), QpByIpoptRow()};
+  static const std::array rows = {NewtonBodiesRow(), InteriorPointRow(), QpByIpoptRow()};
   return rows;
 }
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "certify/exact/bodies.h"
 #include "certify/exact/inexact.h"
-#include "certify/exact/newton_bodies.h"
 #include "certify/request/entries.h"
 #include "certify/request/quad.h"
 #include "certify/request/rest.h"
@@ -126,6 +126,7 @@ struct Turn {
 
 constexpr Turn kCascade[] = {
     {kDouble, 0, &HasFactors, kNewtonBodies, kDouble, &RunBodies},
+    {kDouble, 0, &HasFactors, kInteriorPoint, kDouble, &RunBodies},
     {kDouble, 0, &StaysSparse, "entries", kDouble, &RunEntries, true},  // no method: the one that takes entries
     {kDouble, 3, &Always, "fast", kDouble, &RunWithoutPolygons},
     {kDouble, 2, &Always, kAutomatic, kDouble},

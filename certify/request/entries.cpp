@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/request/entries.h"
 
+#include "certify/exact/bodies.h"
 #include "certify/exact/inexact.h"
-#include "certify/exact/newton_bodies.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/errors.h"
@@ -51,12 +51,12 @@ InexactAnswer SolveListed(const ExactEntries& problem, const Request& request) {
 
 std::vector<std::string_view> MethodsOfEntries(const AnyProblem& problem) {
   const std::string_view listed = problem.dimension() == 2 ? "proximal" : "fast";
-  if (problem.factors() != nullptr) return {kNewtonBodies, listed};
+  if (problem.factors() != nullptr) return {kNewtonBodies, kInteriorPoint, listed};
   return {listed};
 }
 
 InexactAnswer SolveEntries(const AnyProblem& problem, const Request& request) {
-  const bool in_factors = request.method == kNewtonBodies && problem.factors() != nullptr;
+  const bool in_factors = IsOfBodies(request.method) && problem.factors() != nullptr;
   return in_factors ? SolveByBodies(*problem.factors(), request) : SolveListed(problem.entries(), request);
 }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "certify/exact/bodies.h"
 #include "certify/exact/filtered.h"
 #include "certify/exact/inexact.h"
 #include "certify/exact/interval.h"
-#include "certify/exact/newton_bodies.h"
 #include "certify/exact/published_space.h"
 #include "certify/request/cascade.h"
 #include "certify/request/entries.h"
@@ -209,7 +209,7 @@ Solution SolveNamed(Posed& posed, const Request& request) {
     case Arithmetic::kFloat:
       return SolveRounded(posed, posed.RoundedTo<float>(), request);
     case Arithmetic::kDouble:
-      if (request.method == kNewtonBodies && posed.factors() != nullptr)
+      if (IsOfBodies(request.method) && posed.factors() != nullptr)
         return {.answer = SolveByBodies(*posed.factors(), request)};
       return SolveRounded(posed, posed.doubles(), request);
     case Arithmetic::kQuad:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/request/rest.h"
 
+#include "certify/exact/bodies.h"
 #include "certify/exact/interval.h"
-#include "certify/exact/newton_bodies.h"
 #include "certify/exact/rest.h"
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"

@@ -14,7 +14,7 @@
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
-#include "certify/exact/newton_bodies.h"
+#include "certify/exact/bodies.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "cli/narration/outcome_text.h"
@@ -86,7 +86,7 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
 // How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
 Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
   const Wanted wanted{.method = std::string(method), .request = {.limits = o.limits}};
-  const AnyProblem problem = method == kNewtonBodies ? InFactors(file) : file.problem;
+  const AnyProblem problem = IsOfBodies(method) ? InFactors(file) : file.problem;
   const Request request = RequestOf(wanted, problem, o.file);
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
   const auto add = [&run](const auto& answer) {

@@ -38,7 +38,7 @@ struct KnownForces {
 }  // namespace stiction
 
 struct stiction_context {
-  std::optional<stiction::BodyNewton<double>> newton;
+  std::optional<stiction::BodyNewton> newton;
   std::vector<stiction::KnownForces> known;  // by key
   int known_dimension = 0;
   char message[256] = "";
@@ -233,7 +233,7 @@ stiction_options Defaults() {
   options.size = sizeof options;
   options.warm = 1;
   options.residual = kSolvedResidual<double>;
-  options.points = BodyNewton<double>::kPoints;
+  options.points = BodyNewton::kPoints;
   options.dense_rows = 150;
   return options;
 }
@@ -312,8 +312,8 @@ class Solving {
   }
 
   // `factors`: the problem, in factors.
-  void ByNewton(BodyNewton<double>& newton, const Factored& factors, const Vector* start) {
-    using Newton = BodyNewton<double>;
+  void ByNewton(BodyNewton& newton, const Factored& factors, const Vector* start) {
+    using Newton = BodyNewton;
     newton.request() = {.residual = options_.residual / 2,  // the gate adds what rounding may hide
                         .noise = options_.noise};
     newton.aim = std::min(Newton::kAim, options_.residual / 2);
@@ -330,7 +330,7 @@ class Solving {
   }
 
   // From the forces of the call before, if there are any; then from none.
-  void ByNewton(std::optional<BodyNewton<double>>& newton, const Factored& factors, const Vector& start) {
+  void ByNewton(std::optional<BodyNewton>& newton, const Factored& factors, const Vector& start) {
     if (options_.points == 0) return;
     if (!newton) newton.emplace();
     if (start.size() > 0) ByNewton(*newton, factors, &start);

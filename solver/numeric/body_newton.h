@@ -23,12 +23,10 @@
 
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "solver/linear/sparse_lu.h"
-#include "solver/problem/errors.h"
-#include "solver/problem/forms.h"
+#include "solver/numeric/best_forces.h"
+#include "solver/numeric/body_matrix.h"
 #include "solver/problem/options.h"
 
 namespace stiction {
@@ -36,79 +34,54 @@ namespace stiction {
 // Of a request residual, noise and limits.stop are read.
 //
 // Reusable. Memory and the ordering are kept between runs; answers do not depend on earlier ones.
-template <class Scalar>
 class BodyNewton {
  public:
-  using Problem = FactoredProblem<Scalar>;
-  using Vector = typename Problem::Vector;
+  using Problem = FactoredProblem<double>;
+  using Vector = Eigen::VectorXd;
 
   explicit BodyNewton(const Request& request = {}) : request_(request) {}
 
   Request& request() { return request_; }
 
   static constexpr double kAim = 1e-12, kWarmEps = 1e-6;
-  static constexpr int kPoints = 100, kFailures = 1000;
+  static constexpr int kPoints = 100, kFailures = 1000, kSteps = 20;
   double aim = kAim;           // error at which it ends; above it, and good enough, when points gain nothing
   double warm_eps = kWarmEps;  // the first eps with a start
   int points = kPoints;        // proximal problems tried
   int failures = kFailures;    // proximal problems that Newton's method may not solve
+  int steps = kSteps;          // of Newton's method for a proximal problem
+  BestForces::Measure measure = BestForces::Measure::kStrict;  // of errors
 
   // With `start` (rows x 1, N) it begins there.
   RunEnd<> Run(const Problem& problem, const Vector* start = nullptr);
 
   // The best forces that the last run found, and a = A f + b.
-  const Vector& f() const { return best_f_; }
-  const Vector& a() const { return best_a_; }
+  const Vector& f() const { return best_.f(); }
+  const Vector& a() const { return best_.a(); }
 
  private:
-  using Matrix = Eigen::SparseMatrix<Scalar>;
-  using Block = std::array<std::array<Scalar, 3>, 3>;
-
-  // A contact's rows of J, dense in the columns that they have entries in.
-  struct Piece {
-    int row = 0, rows = 0;
-    int column = 0, columns = 0;  // where its columns begin in columns_
-    int slot = 0;                 // where its columns x columns places in K begin in slots_
-    int entry = 0;                // where its rows x columns numbers begin in entries_
-  };
+  using Block = BodyMatrix::Block;
 
   void Start(const Problem& problem, const Vector* start);
-  void TakePieces();
-  void TakePattern();
-  Scalar Measured();
   bool Settle();
   void Backtrack(const Vector& step);
   void Evaluate();
-  void Law(int contact, const std::array<Scalar, 3>& p, Scalar slope);
   bool Factor();
-  Vector Solved(const Vector& y);
 
   Request request_;
   RunEnd<> verdict_;
   const Problem* problem_ = nullptr;
-  std::vector<Piece> pieces_;
-  std::vector<int> columns_;
-  std::vector<Scalar> entries_;
-  std::vector<int> slots_, mass_slots_;
-  std::vector<int> known_columns_, known_rows_;  // of the pattern that K has
-  std::vector<int> known_mass_;
-  std::vector<Scalar> D_;               // by contact
-  std::vector<Scalar> near_, largest_;  // of one contact's columns, and of those of all
+  BodyMatrix matrix_;
+  std::vector<double> near_, largest_;  // of one contact's columns, and of those of all
 
-  Scalar eps_ = Scalar(0);
+  double eps_ = 0;
   Vector center_;  // of the proximal point
-  Vector v_, f_, a_, R_;
-  Vector told_a_;                         // a_ without noise
+  Vector v_, f_, R_;
   std::vector<Block> slopes_, factored_;  // S by contact, now and of the factors
-  Scalar factored_eps_ = Scalar(0);
-  bool symmetric_ = true, is_factored_ = false, uses_lu_ = false, lu_knows_ = false;
-  Scalar size_ = Scalar(0);  // what R is made of
-  Vector best_f_, best_a_;
-  ErrorMeter<Scalar> meter_;
-
-  Matrix K_;
-  Eigen::SimplicialLDLT<Matrix> ldlt_;
-  SparseLu lu_;
+  double factored_eps_ = 0;
+  bool symmetric_ = true, is_factored_ = false;
+  double size_ = 0;  // what R is made of
+  BestForces best_;
 };
 
 }  // namespace stiction

@@ -1,30 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "certify/exact/newton_bodies.h"
+#include "certify/exact/bodies.h"
 
 #include "certify/exact/inexact.h"
 #include "solver/numeric/body_newton.h"
 #include "solver/numeric/dense_factors.h"
+#include "solver/numeric/interior_point.h"
 
 namespace stiction {
 namespace {
 
 using Factored = FactoredProblem<double>;
 
-Answer<double> RunBodies(const Factored& problem, const Request& request) {
-  Request aiming = request;
-  aiming.residual = ResidualOf<double>(request) / 2;  // the rest is for the rounding that the gate counts
-  BodyNewton<double> method(aiming);
-  method.aim = std::min(method.aim, aiming.residual);
-  auto answer = AnswerOf<double>(method.Run(problem));
-  answer.method = kNewtonBodies;
+template <class Engine>
+Answer<double> AnswerBy(std::string_view name, Engine& engine, const Factored& problem) {
+  engine.aim = std::min(engine.aim, engine.request().residual);
+  auto answer = AnswerOf<double>(engine.Run(problem));
+  answer.method = name;
   answer.law = FrictionLaw::kCoulomb;
-  answer.f = method.f();
+  answer.f = engine.f();
   return answer;
 }
 
+Answer<double> RunBodies(const Factored& problem, const Request& request) {
+  Request aiming = request;
+  aiming.residual = ResidualOf<double>(request) / 2;  // the rest is for the rounding that the gate counts
+  if (request.method == kInteriorPoint) {
+    InteriorPoint engine(aiming);
+    return AnswerBy(kInteriorPoint, engine, problem);
+  }
+  BodyNewton engine(aiming);
+  return AnswerBy(kNewtonBodies, engine, problem);
+}
+
+template <const std::string_view& kName>
 Answer<double> RunDense(const ContactProblem<double>& problem, const Request& request) {
+  Request named = request;
+  named.method = kName;
   Answer<double> answer;
-  if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, request);
+  if (const auto factored = FactorsOf(problem)) return RunBodies(*factored, named);
   answer.law = FrictionLaw::kCoulomb;
   if (problem.rows() == 0) {
     answer.outcome = Outcome::kSolved;
@@ -57,8 +70,19 @@ Method<double> NewtonBodiesRow() {
           .source = "solver/numeric/body_newton.h",
           .ends = "nothing; what is called solved has the residual that is asked for",
           .automatic = false,
-          .plane = {&RunDense, true},
-          .space = {&RunDense, true}};
+          .plane = {&RunDense<kNewtonBodies>, true},
+          .space = {&RunDense<kNewtonBodies>, true}};
+}
+
+Method<double> InteriorPointRow() {
+  return {
+      .name = kInteriorPoint,
+      .title = "an interior point method on Coulomb's law in the space of bodies, over factors J and M of A",
+      .source = "solver/numeric/interior_point.h",
+      .ends = "nothing; what is called solved has the residual that is asked for",
+      .automatic = false,
+      .plane = {&RunDense<kInteriorPoint>, true},
+      .space = {&RunDense<kInteriorPoint>, true}};
 }
 
 }  // namespace stiction

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Method `newton-bodies`: Newton's method in the space of bodies (solver/numeric/body_newton.h), for problems
-// in factors and for dense ones.
+// Methods in the space of bodies, for problems in factors and for dense ones:
+//
+//   newton-bodies   proximal points by Newton's method (solver/numeric/body_newton.h)
+//   interior-point  an interior point method, and from where it ends the other
+//   (solver/numeric/interior_point.h)
 //
 //   in factors   A and b are not formed. Errors are those of the returned doubles, evaluated over rationals on
 //                the factors themselves.
@@ -16,14 +19,18 @@
 
 namespace stiction {
 
-inline constexpr std::string_view kNewtonBodies = "newton-bodies";
+inline constexpr std::string_view kNewtonBodies = "newton-bodies", kInteriorPoint = "interior-point";
 
-// Of the request, residual and limits.stop are read. The best forces that were found, with their errors,
-// however it ends; none if they are not finite.
+// Whether a method is one of the two.
+inline bool IsOfBodies(std::string_view method) { return method == kNewtonBodies || method == kInteriorPoint; }
+
+// Of the request, method (newton-bodies unless interior-point), residual and limits.stop are read. The best
+// forces that were found, with their errors, however it ends; none if they are not finite.
 InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request);
 
-// The row of the table, for dense problems.
+// The rows of the table, for dense problems.
 Method<double> NewtonBodiesRow();
+Method<double> InteriorPointRow();
 
 // Errors of f by Coulomb's law, and an answer that calls itself solved and misses the bound is undecided.
 // Problem: of any form, over rationals; a = A f + b.

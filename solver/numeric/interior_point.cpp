@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/numeric/interior_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stiction {
+namespace {
+
+constexpr int kSteps = 120, kIdleSteps = 20;
+constexpr double kJudgeBelow = 1e-6;  // tau from which on forces are judged
+constexpr double kLeastTau = 1e-28;
+constexpr int kRefinements = 2;  // of each solution of K x = y
+constexpr int kPatience = 6;     // attempts after which what is loose has to do
+constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
+constexpr int kFinishSteps = 12, kFinishFailures = 20, kPolishFailures = 1, kPolishPoints = 6;
+
+}  // namespace
+
+// The first ends nearly all, each of the others about half of the rest. After the last the second follows
+// again, with other weights.
+const std::array<InteriorPoint::Attempt, InteriorPoint::kTurnCount> InteriorPoint::kTurns = {{
+    {},
+    {.delta = 1e-6, .first = 0.1, .spread = 0.5},
+    {.delta = 1e-7, .kappa = 1},
+    {.first = 0.1, .spread = 0.5, .kappa = 10},
+    {.step = 0.7, .delta = 1e-7, .kappa = 1},
+    {.delta = 1e-7, .first = 10, .spread = 0.5, .kappa = 10},
+    {.delta = 1e-7, .spread = 0.5},
+    {.delta = 1e-9, .spread = 0.5, .kappa = 1},
+    {.first = 100, .spread = 0.5, .kappa = 1},
+    {.delta = 1e-7, .spread = 0.5, .kappa = 100},
+    {.step = 0.7, .spread = 0.5},
+    {.step = 0.95, .delta = 1e-7, .spread = 1, .kappa = 100},
+}};
+
+RunEnd<> InteriorPoint::Run(const Problem& problem) {
+  problem_ = &problem;
+  verdict_ = {.statistics = {Counter::kStarts, Counter::kIterations, Counter::kFactorizations}};
+  seed_ = 1;
+  matrix_.Take(problem);
+  states_.resize(problem.contacts.size());
+  D_.resize(states_.size());
+  most_b_ = 0;
+  for (const auto& piece : matrix_.pieces()) {
+    const double own = std::sqrt(matrix_.own(static_cast<int>(&piece - matrix_.pieces().data())));
+    for (int i = 0; i < piece.rows; ++i) most_b_ = std::max(most_b_, std::abs(problem.b[piece.row + i]) / own);
+  }
+  best_.Start(problem, request_, measure);
+  best_.Offer(Vector::Zero(problem.rows()));
+  if (!best_.IsGood()) best_.Forget();  // its error is no measure of others
+  const double residual = ResidualOf<double>(request_);
+  const int most = MostAttempts();
+  for (int i = 0; i < most && !request_.limits.Stopped(); ++i) {
+    if (best_.error() <= (i < kPatience ? residual : std::max(residual, loose))) break;
+    ++verdict_.statistics[Counter::kStarts];
+    Begin(kTurns[i < kTurnCount ? i : 1 + (i - 1) % (kTurnCount - 1)]);
+    Follow();
+    Finish();
+  }
+  if (best_.f().size() != problem.rows()) best_.Offer(f_);
+  if (best_.IsGood()) {
+    verdict_.outcome = Outcome::kSolved;
+  } else {
+    verdict_.reason =
+        request_.limits.Stopped() ? kStopped : "the path of the interior point ends in no solution";
+  }
+  return verdict_;
+}
+
+// Where contacts slide there may be no solution; and large problems are not tried for ever.
+int InteriorPoint::MostAttempts() const {
+  constexpr int kSliding = 3, kLeast = 6, kRowsInAll = 20000;
+  const bool slides = std::ranges::any_of(
+      problem_->contacts, [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
+  return slides ? kSliding : std::clamp(kRowsInAll / std::max(1, problem_->rows()), kLeast, kAttempts);
+}
+
+template <class Visit>
+void InteriorPoint::ForEachPair(Visit visit) {
+  for (State& state : states_) {
+    if (state.kind != Kind::kBilateral) visit(state.normal);
+    if (state.kind == Kind::kStatic) visit(state.slip);
+  }
+}
+
+// exp of a number that is nearly normal.
+double InteriorPoint::Chance() {
+  if (!(attempt_.spread > 0)) return 1;
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) {
+    seed_ = seed_ * 6364136223846793005u + 1442695040888963407u;
+    sum += std::ldexp(static_cast<double>(seed_ >> 11), -53);
+  }
+  return std::exp(attempt_.spread * sum);
+}
+
+void InteriorPoint::Begin(const Attempt& attempt) {
+  attempt_ = attempt;
+  v_ = problem_->w;
+  f_.setZero(problem_->rows());
+  df_.setZero(problem_->rows());
+  pairs_ = 0;
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    const auto& contact = problem_->contacts[c];
+    const auto& piece = matrix_.pieces()[c];
+    State& state = states_[c];
+    state = {};
+    if (contact.kind == ContactKind::kBilateral) {
+      state.kind = Kind::kBilateral;
+      continue;
+    }
+    state.kind = contact.kind == ContactKind::kSliding                    ? Kind::kSliding
+                 : contact.kind == ContactKind::kStatic && contact.mu > 0 ? Kind::kStatic
+                                                                          : Kind::kNormal;
+    const double own = std::sqrt(matrix_.own(static_cast<int>(c)));
+    const double force = attempt.first * most_b_ / own, acceleration = attempt.first * most_b_ * own;
+    Pair& normal = state.normal;
+    normal.x = f_[piece.row] = force * Chance();
+    normal.y = acceleration * Chance();
+    normal.weight = normal.x * normal.y;
+    ++pairs_;
+    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+      f_[piece.row + i] = -contact.mu * contact.slip[i - 1] * normal.x;
+    if (state.kind != Kind::kStatic) continue;
+    state.slip.x = acceleration * attempt.kappa * Chance();
+    state.slip.y = contact.mu * normal.x / 2;
+    state.slip.weight = 2 / contact.mu * state.slip.x * state.slip.y;
+    ++pairs_;
+  }
+}
+
+double InteriorPoint::MeanProduct() {
+  double sum = 0;
+  ForEachPair([&sum](const Pair& pair) { sum += pair.x * pair.y / pair.weight; });
+  return sum / std::max(1, pairs_);
+}
+
+// Each contact in the mode that its force and acceleration ask for; a bilateral one keeps its force.
+void InteriorPoint::Offer() {
+  Vector snapped = f_;
+  const Vector a = problem_->A.J() * v_ + problem_->c;
+  BodyMatrix::Block slope;
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    if (states_[c].kind == Kind::kBilateral) continue;
+    const auto& piece = matrix_.pieces()[c];
+    std::array<double, 3> p{};
+    for (int i = 0; i < piece.rows; ++i)
+      p[i] = f_[piece.row + i] - a[piece.row + i] / matrix_.own(static_cast<int>(c));
+    ProjectOnLaw(problem_->contacts[c], piece.rows, p.data(), &snapped[piece.row], slope);
+  }
+  best_.Offer(snapped);
+}
+
+// The path of the attempt, to its end.
+void InteriorPoint::Follow() {
+  constexpr double kFalls = 0.3, kShort = 0.02;
+  double mark = std::numeric_limits<double>::infinity();
+  int since = 0, weak = 0;
+  for (int step = 0; step < kSteps && !request_.limits.Stopped(); ++step) {
+    const double tau = MeanProduct();
+    ++verdict_.statistics[Counter::kIterations];
+    if (!std::isfinite(tau)) return;
+    if (tau < kFalls * mark) {
+      mark = tau;
+      since = step;
+    }
+    if (tau < kJudgeBelow) {
+      Offer();
+      if (best_.error() <= aim) return;
+    }
+    if (step - since > kIdleSteps || weak > 6 || tau < kLeastTau) return;
+    TakeResiduals();
+    ++verdict_.statistics[Counter::kFactorizations];
+    if (!matrix_.Factor(D_, false)) return;
+    Aim(0, tau, false);
+    if (!SolveStep()) return;
+    const double ahead = std::min(1.0, Longest());
+    double product = 0;
+    ForEachPair([&](Pair& pair) {
+      pair.ahead_x = pair.dx;
+      pair.ahead_y = pair.dy;
+      product += (pair.x + ahead * pair.dx) * (pair.y + ahead * pair.dy) / pair.weight;
+    });
+    product /= std::max(1, pairs_);
+    double sigma = std::max(std::pow(std::clamp(product / tau, 0.0, 1.0), 3), 1e-3);
+    if (ahead < 0.1) sigma = std::max(sigma, 0.3);
+    if (weak > 2) sigma = std::max(sigma, 0.5);
+    Aim(sigma, tau, ahead > 0.1);
+    if (!SolveStep()) return;
+    const double length = std::min(1.0, attempt_.step * Longest());
+    weak = length < kShort ? weak + 1 : std::max(0, weak - 1);
+    if (!(length > 1e-10)) return;
+    Move(length);
+  }
+}
+
+// From the best forces by Newton's method, which is exact to rounding where it settles.
+void InteriorPoint::Finish() {
+  if (best_.f().size() != problem_->rows()) return;
+  const bool polishes = best_.IsGood();
+  newton_.request() = request_;
+  newton_.measure = measure;
+  newton_.steps = kFinishSteps;
+  newton_.warm_eps = polishes ? kPolishEps : kFinishEps;
+  newton_.failures = polishes ? kPolishFailures : kFinishFailures;
+  newton_.points = polishes ? kPolishPoints : BodyNewton::kPoints;
+  const Vector start = best_.f();
+  const RunEnd<> end = newton_.Run(*problem_, &start);
+  verdict_.statistics[Counter::kFactorizations] += end.statistics[Counter::kFactorizations];
+  best_.Offer(newton_.f());
+}
+
+// What the equations miss, and D.
+void InteriorPoint::TakeResiduals() {
+  const Vector a = problem_->A.J() * v_ + problem_->c;
+  unbalanced_ = problem_->M * (v_ - problem_->w) - problem_->A.J().transpose() * f_;
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    State& state = states_[c];
+    const auto& contact = problem_->contacts[c];
+    const auto& piece = matrix_.pieces()[c];
+    const double *at = &a[piece.row], *force = &f_[piece.row];
+    const double delta = attempt_.delta * matrix_.own(static_cast<int>(c));
+    BodyMatrix::Block& D = D_[c];
+    D = {};
+    if (state.kind == Kind::kBilateral) {
+      D[0][0] = 1 / delta;
+      state.miss = -at[0];
+      continue;
+    }
+    state.miss = state.normal.y - at[0];
+    D[0][0] = 1 / (state.normal.y / state.normal.x + delta);
+    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+      D[i][0] = -contact.mu * contact.slip[i - 1] * D[0][0];
+    if (state.kind != Kind::kStatic) continue;
+    const double R = contact.mu * force[0], l = state.slip.x, s = state.slip.y;
+    const int tangents = piece.rows - 1;
+    double square = 0;
+    for (int i = 0; i < tangents; ++i) {
+      state.g[i] = force[1 + i] / R;
+      square += state.g[i] * state.g[i];
+      state.slip_miss[i] = at[1 + i] + l * state.g[i];
+    }
+    state.slack_miss = s - R / 2 * (1 - square);
+    state.length = std::sqrt(square);
+    state.e = {1, 0};
+    for (int i = 0; i < tangents && state.length > 0; ++i) state.e[i] = state.g[i] / state.length;
+    state.give = l / R + delta;
+    state.Q = state.give * s + l * square;
+    state.along = contact.mu * state.length * l * (s / R + (1 + square) / 2) / state.Q;
+    const double along = s / state.Q, across = 1 / state.give;
+    for (int i = 0; i < tangents; ++i) {
+      D[1 + i][0] = state.along * state.e[i] * D[0][0];
+      for (int j = 0; j < tangents; ++j)
+        D[1 + i][1 + j] = across * (i == j) + (along - across) * state.e[i] * state.e[j];
+    }
+  }
+}
+
+void InteriorPoint::Aim(double sigma, double tau, bool corrects) {
+  ForEachPair([&](Pair& pair) {
+    pair.aim = sigma * tau * pair.weight - pair.x * pair.y - (corrects ? pair.ahead_x * pair.ahead_y : 0);
+  });
+}
+
+// dv, df = q - D J dv, and the changes of the pairs; false if they are no numbers.
+bool InteriorPoint::SolveStep() {
+  Vector q = Vector::Zero(f_.size());
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    const State& state = states_[c];
+    const auto& contact = problem_->contacts[c];
+    const auto& piece = matrix_.pieces()[c];
+    double* at = &q[piece.row];
+    at[0] =
+        D_[c][0][0] * (state.miss + (state.kind != Kind::kBilateral ? state.normal.aim / state.normal.x : 0));
+    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+      at[i] = -contact.mu * contact.slip[i - 1] * at[0];
+    if (state.kind != Kind::kStatic) continue;
+    const double along_miss = state.slip_miss[0] * state.e[0] + state.slip_miss[1] * state.e[1];
+    const double along =
+        (-state.slip.y * along_miss - state.length * (state.slip.aim + state.slip.x * state.slack_miss)) /
+            state.Q +
+        state.along * at[0];
+    for (int i = 1; i < piece.rows; ++i)
+      at[i] = along * state.e[i - 1] - (state.slip_miss[i - 1] - along_miss * state.e[i - 1]) / state.give;
+  }
+  dv_ = matrix_.SolveFinely(problem_->A.J().transpose() * q - unbalanced_, kRefinements);
+  const Vector da = problem_->A.J() * dv_;
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    State& state = states_[c];
+    const auto& contact = problem_->contacts[c];
+    const auto& piece = matrix_.pieces()[c];
+    for (int i = 0; i < piece.rows; ++i) {
+      double change = 0;
+      for (int j = 0; j < piece.rows; ++j) change += D_[c][i][j] * da[piece.row + j];
+      df_[piece.row + i] = q[piece.row + i] - change;
+    }
+    if (state.kind == Kind::kBilateral) continue;
+    const double normal = df_[piece.row];
+    state.normal.dx = normal;
+    state.normal.dy = (state.normal.aim - state.normal.y * normal) / state.normal.x;
+    if (state.kind != Kind::kStatic) continue;
+    double miss = 0, along_a = 0, along_f = 0, by_g = 0;
+    for (int i = 1; i < piece.rows; ++i) {
+      miss += state.slip_miss[i - 1] * state.e[i - 1];
+      along_a += da[piece.row + i] * state.e[i - 1];
+      along_f += df_[piece.row + i] * state.e[i - 1];
+      by_g += state.g[i - 1] * df_[piece.row + i];
+    }
+    Pair& slip = state.slip;
+    const double R = contact.mu * f_[piece.row], square = state.length * state.length;
+    if (slip.x * square > state.give * slip.y) {
+      slip.dx = (-miss - along_a - state.give * along_f) / state.length + slip.x * contact.mu / R * normal;
+      slip.dy = (slip.aim - slip.y * slip.dx) / slip.x;
+    } else {
+      slip.dy = (1 + square) / 2 * contact.mu * normal - by_g - state.slack_miss;
+      slip.dx = (slip.aim - slip.x * slip.dy) / slip.y;
+    }
+  }
+  return dv_.allFinite() && df_.allFinite();
+}
+
+// The part of the step at which the first number of a pair is zero.
+double InteriorPoint::Longest() {
+  double longest = std::numeric_limits<double>::max();
+  ForEachPair([&longest](const Pair& pair) {
+    if (pair.dx < 0) longest = std::min(longest, -pair.x / pair.dx);
+    if (pair.dy < 0) longest = std::min(longest, -pair.y / pair.dy);
+  });
+  return longest;
+}
+
+void InteriorPoint::Move(double length) {
+  v_ += length * dv_;
+  f_ += length * df_;
+  ForEachPair([length](Pair& pair) {
+    pair.x += length * pair.dx;
+    pair.y += length * pair.dy;
+  });
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    const State& state = states_[c];
+    const auto& contact = problem_->contacts[c];
+    const auto& piece = matrix_.pieces()[c];
+    if (state.kind != Kind::kBilateral) f_[piece.row] = state.normal.x;
+    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+      f_[piece.row + i] = -contact.mu * contact.slip[i - 1] * state.normal.x;
+  }
+}
+
+}  // namespace stiction
