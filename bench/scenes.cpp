@@ -45,10 +45,10 @@ void RunOnce(const SceneFileIn<Kind>& file, Way& way) {
   SimulationIn<Kind> simulation(Round(file.scene), step);
   simulation.minimal = way.minimal;
   const Stopwatch watch(CLOCK_MONOTONIC);  // threads of their own
-  try {
-    for (std::int64_t k = 0; k < frames; ++k) simulation.Step();
-  } catch (const SimulationError& error) {
-    way.failure = error.what();
+  for (std::int64_t k = 0; k < frames; ++k) {
+    simulation.Step();
+    if (simulation.undecided().empty()) continue;
+    way.failure = TextOf(simulation.undecided().front());
     return;
   }
   way.rates.push_back(static_cast<double>(frames) / watch.Seconds());

@@ -270,12 +270,13 @@ void ShowStep(ProgressBar& bar, std::int64_t done, std::int64_t steps, double ti
   });
 }
 
-// All steps, or as many as there are before an interruption or a SimulationError. A picture shows a state with
-// the contacts and forces that the step from there finds; the last one, where the run ended, those of the step
-// before it.
+// All steps, or as many as there are before an interruption. A picture shows a state with the contacts and
+// forces that the step from there finds; the last one, where the run ended, those of the step before it. The
+// first problem that was not solved.
 template <class Kind>
-void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_second,
-         const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
+std::optional<UndecidedProblem> Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_second,
+                                    const std::atomic<bool>& interrupted, SimulationWriter<Kind>& writer) {
+  std::optional<UndecidedProblem> first;
   ProgressBar progress;
   double next = 0;  // picture, s
   writer.AddFirst(simulation);
@@ -285,8 +286,11 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
     const double time = simulation.time();
     const auto start = shown ? std::optional(simulation.scene()) : std::nullopt;
     simulation.Step();
+    const bool is_undecided = !simulation.undecided().empty();
+    if (is_undecided && !first) first = simulation.undecided().front();
     if (start) {
       auto picture = RecordFrame(*start, time, MarksOf(simulation));
+      if (is_undecided) picture.remark = "undecided";
       writer.AddProblems(simulation, k, picture);
       writer.AddPicture(*start, std::move(picture));
     }
@@ -296,6 +300,7 @@ void Run(SimulationIn<Kind>& simulation, std::int64_t steps, int pictures_a_seco
   auto picture = RecordFrame(simulation.scene(), simulation.time(), MarksOf(simulation));
   picture.remark = "last";
   writer.AddPicture(simulation.scene(), std::move(picture));
+  return first;
 }
 
 // How many bodies rest, and how those that do not move, the fastest first.
@@ -370,21 +375,10 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   SimulationIn<Kind> simulation(scene, step, o.rest, observe);
   simulation.minimal = !o.full;
   const auto steps = static_cast<std::int64_t>(std::llround(seconds / step));
-  try {
-    Run(simulation, steps, o.frames_a_second, interrupted, writer);
-  } catch (const SimulationError& error) {
-    const fs::path at = fs::path(o.output) / "undecided.json";
-    WriteProblem(writer.Place(at), file.scene.name, simulation.statistics().frames, "undecided", error.problem);
-    auto marks = MarksOf(simulation);
-    marks.forces.clear();  // they are of the step before
-    auto picture = RecordFrame(simulation.scene(), simulation.time(), std::move(marks));
-    picture.remark = "undecided";
-    writer.AddPicture(simulation.scene(), std::move(picture));
-    writer.WritePictures(scene);
-    writer.Commit(scene);
-    std::cerr << "stiction: " << error.what() << "; written to " << at.string() << "\n";
-    return kExitUndecided;
-  }
+  const auto undecided = Run(simulation, steps, o.frames_a_second, interrupted, writer);
+  const fs::path first = fs::path(o.output) / "undecided.json";
+  if (undecided)
+    WriteProblem(writer.Place(first), file.scene.name, undecided->frame, "undecided", undecided->problem);
   writer.WritePictures(scene);
   const std::vector<BodyMotion> motions = writer.Commit(scene);
   WriteSummary(simulation, motions, writer.worst(), o);
@@ -392,7 +386,9 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
     fmt::print(stderr, "Interrupted at t = {:.6g} s of {:.6g} s; everything up to there is written.\n",
                simulation.time(), seconds);
   }
-  return kExitDone;
+  if (!undecided) return kExitDone;
+  std::cerr << "stiction: " << TextOf(*undecided) << "; written to " << first.string() << "\n";
+  return kExitUndecided;
 }
 
 // ---- draw ------------------------------------------------------------------------------------
@@ -401,16 +397,10 @@ template <class Kind>
 int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationIn<Kind> simulation(scene, StepOf(file, o.scene));
-  std::vector<TouchPointIn<Kind, double>> touches;
-  MarksIn<Kind> marks;
-  try {
-    simulation.Step();
-    touches = simulation.contacts();
-    marks = MarksOf(simulation);
-  } catch (const SimulationError& error) {
-    std::cerr << "stiction: " << error.what() << "; drawn without forces\n";
-    touches = FindContacts(scene);
-  }
+  simulation.Step();
+  for (const auto& undecided : simulation.undecided()) std::cerr << "stiction: " << TextOf(undecided) << "\n";
+  const auto& touches = simulation.contacts();
+  const MarksIn<Kind> marks = MarksOf(simulation);
   View view;
   view.Include(scene);
   view.AddMargin();

@@ -91,7 +91,7 @@ struct ArraysOfRun {
   GrowingTable<MotionRow<Kind>> motion{MotionTable<Kind>()};
   MotionTrack<Kind> track;
   SimulationStatistics statistics;
-  std::string reason;  // why a step has no answer; empty if all have
+  std::string reason;  // the first problem that was not solved; empty if there is none
 
   void AddState(const SimulationIn<Kind>& simulation) {
     const auto& scene = simulation.scene();
@@ -107,15 +107,13 @@ template <class Kind>
 ArraysOfRun<Kind> RunArrays(SimulationIn<Kind>& simulation, std::int64_t steps, const std::atomic<bool>* stop) {
   ArraysOfRun<Kind> run;
   run.AddState(simulation);
-  try {
-    for (std::int64_t k = 0; k < steps && !*stop; ++k) {
-      const double time = simulation.time();
-      simulation.Step();
-      ForEachContactRow(simulation, time, [&run](const ContactRow<Kind>& row) { run.contacts.Add(row); });
-      run.AddState(simulation);
-    }
-  } catch (const SimulationError& error) {
-    run.reason = error.what();
+  for (std::int64_t k = 0; k < steps && !*stop; ++k) {
+    const double time = simulation.time();
+    simulation.Step();
+    if (run.reason.empty() && !simulation.undecided().empty())
+      run.reason = TextOf(simulation.undecided().front());
+    ForEachContactRow(simulation, time, [&run](const ContactRow<Kind>& row) { run.contacts.Add(row); });
+    run.AddState(simulation);
   }
   for (const BodyMotion& motion : run.track.Motions()) run.motion.Add({simulation.scene(), motion});
   run.statistics = simulation.statistics();
@@ -227,24 +225,19 @@ std::string PageOfRun(SimulationIn<Kind>& simulation, std::int64_t steps, const 
   };
   watch();
   double next = 0;  // frame, s
-  try {
-    for (std::int64_t k = 0; k < steps && !*stop; ++k) {
-      const double time = simulation.time();
-      const SceneIn<Kind, double> start = simulation.scene();
-      simulation.Step();
-      if (time >= next - 1e-9) {
-        next += 1 / kRate;
-        add(start, time);
-      }
-      watch();
+  for (std::int64_t k = 0; k < steps && !*stop; ++k) {
+    const double time = simulation.time();
+    const SceneIn<Kind, double> start = simulation.scene();
+    simulation.Step();
+    if (time >= next - 1e-9) {
+      next += 1 / kRate;
+      add(start, time);
+      if (!simulation.undecided().empty()) frames.back().remark = "undecided";
     }
-    add(simulation.scene(), simulation.time());
-    frames.back().remark = "last";
-  } catch (const SimulationError&) {
-    add(simulation.scene(), simulation.time());
-    frames.back().marks.forces.clear();  // they are of the step before
-    frames.back().remark = "undecided";
+    watch();
   }
+  add(simulation.scene(), simulation.time());
+  frames.back().remark = "last";
   view.AddMargin();
   std::vector<double> largest;
   for (const auto& frame : frames) largest.push_back(LargestForce(frame.marks));

@@ -17,6 +17,8 @@ namespace stiction {
 namespace {
 
 constexpr int kHoldRounds = 8;
+constexpr std::size_t kNewShare =
+    20;                            // of contacts that may be new where forces of the step before are a start
 constexpr double kDeep = 1e-3;     // of the scene's size; where it has no gap
 constexpr double kSlow = 1e-3;     // of the scene's size a second; at rest where there is no gravity
 constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save
@@ -49,28 +51,35 @@ auto MotionOf(const Body& body) {
 // From which rows on an island is solved in factors before A is formed, and a start is worth more than it
 // costs. Positions have no friction, and joints leave their problems: of a few rows they are cheap with A.
 constexpr int FactorRows(Level level, int dimension) {
-  return level == Level::kPositions || dimension == 2 ? 100 : 10;
+  return level == Level::kPositions ? 100 : dimension == 2 ? 40 : 10;
 }
+
+// Up to which it may be worth while to form A: polygons and complete driving come last, and grow fast.
+constexpr int DenseRows(int dimension) { return dimension == 2 ? 300 : 150; }
 
 // In factors, from the start if there is one, then without; then with A. A small island the other way round:
 // in factors what has no answer, or a loose one.
 template <class Kind, class Model>
 SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, std::size_t island,
                         const Eigen::VectorXd& start) {
-  const auto with_A = [&] { return solver.Solve(model.Problem(island)); };
-  if (model.islands[island].rows < FactorRows(level, Kind::kDimension)) {
-    const auto is_sure = [](const SceneAnswer& answer) {
-      return answer.Solved() && answer.counters[Counter::kLoose] == 0;
-    };
-    return InTurn<SceneAnswer>({with_A, [&] { return solver.Solve(model.InFactors(island)); }}, is_sure,
-                               [](const SceneAnswer& answer, const SceneAnswer&) { return answer.Solved(); });
+  const auto is_better = [](const SceneAnswer& answer, const SceneAnswer& best) {
+    return answer.Solved() || (!best.Solved() && answer.error < best.error);
+  };
+  const int rows = model.islands[island].rows;
+  if (rows < FactorRows(level, Kind::kDimension)) {
+    SceneAnswer answer = solver.Solve(model.Problem(island));
+    if (answer.Solved() && answer.counters[Counter::kLoose] == 0) return answer;
+    SceneAnswer other = solver.Solve(model.InFactors(island));
+    return is_better(other, answer) ? other : answer;
   }
   const auto problem = model.InFactors(island);
   Runs<SceneAnswer> runs;
   if (start.size() > 0) runs.emplace_back([&] { return solver.Solve(problem, &start); });
   runs.emplace_back([&] { return solver.Solve(problem); });
-  runs.emplace_back(with_A);
-  return InTurn(runs);
+  if (rows <= DenseRows(Kind::kDimension))
+    runs.emplace_back([&] { return solver.Solve(model.Problem(island)); });
+  return InTurn(
+      runs, [](const SceneAnswer& answer) { return answer.Solved(); }, is_better);
 }
 
 }  // namespace
@@ -87,6 +96,7 @@ SimulationIn<Kind>::SimulationIn(SceneType scene, double step, double rest,
 template <class Kind>
 void SimulationIn<Kind>::Step() {
   exhausted_ = false;
+  undecided_.clear();
   StepBy(frame_step_, halvings);
   ++statistics_.frames;
   statistics_.contacts += static_cast<std::int64_t>(contacts_.size());
@@ -191,9 +201,9 @@ bool SimulationIn<Kind>::AddClosing(const Changes& accelerations) {
 // ---- Solving ---------------------------------------------------------------------------------
 
 // Islands at the same time where there is work enough: every answer depends on its own problem alone. False
-// with failed_ set to the first island that has no answer.
+// where an island is undecided; if these forces are the last word, that is told.
 template <class Kind>
-bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
+bool SimulationIn<Kind>::Solve(const Model& model, Level level, bool is_last, Forces& f) {
   const std::size_t count = model.islands.size();
   int rows = 0, largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -214,16 +224,21 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, Forces& f) {
   } else {
     for (std::size_t i = 0; i < count; ++i) solve(i);
   }
-  failed_ = count;
-  for (std::size_t i = count; i-- > 0;) {
-    statistics_.fallbacks += answers[i].counters[Counter::kFallbacks];
-    statistics_.loose += answers[i].counters[Counter::kLoose];
-    statistics_.sparse += answers[i].counters[Counter::kSparse];
-    statistics_.warm += answers[i].counters[Counter::kWarm];
-    if (!answers[i].Solved()) failed_ = i;
-    f[i] = std::move(answers[i].f);
+  bool solved = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    SceneAnswer& answer = answers[i];
+    statistics_.fallbacks += answer.counters[Counter::kFallbacks];
+    statistics_.loose += answer.counters[Counter::kLoose];
+    statistics_.sparse += answer.counters[Counter::kSparse];
+    statistics_.warm += answer.counters[Counter::kWarm];
+    solved = solved && answer.Solved();
+    f[i] = std::move(answer.f);
+    if (answer.Solved() || !is_last) continue;
+    ++statistics_.undecided;
+    undecided_.push_back(
+        {statistics_.frames, time(), level, static_cast<int>(i), answer.error, model.Problem(i)});
   }
-  return failed_ == count;
+  return solved;
 }
 
 // Forces of the step before, by row of the island; empty where no constraint of it was there. The force of a
@@ -241,7 +256,7 @@ Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std
   }
   std::stable_sort(now.begin(), now.end(), IsBefore);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(row);
-  bool found = false;
+  std::size_t found = 0;
   auto from = now.begin();
   for (const Remembered& before : remembered_) {
     while (from != now.end() && IsBefore(*from, before)) ++from;
@@ -251,14 +266,14 @@ Eigen::VectorXd SimulationIn<Kind>::StartOf(const Model& model, Level level, std
         nearest = at;
     }
     if (nearest == now.end() || nearest->key != before.key) continue;
-    found = true;
+    ++found;
     const auto& constraint = *nearest->constraint;
     for (std::size_t k = 0; k < constraint.rows.size(); ++k)
       start[nearest->row + static_cast<int>(k)] +=
           constraint.from_joint ? before.along
                                 : SideOf(constraint) * before.force.dot(WayOf(constraint.rows[k]));
   }
-  if (!found) start.resize(0);
+  if (found + now.size() / kNewShare < now.size()) start.resize(0);
   return start;
 }
 
@@ -277,15 +292,6 @@ auto SimulationIn<Kind>::Known(const ConstraintIn<Kind, double>& constraint, int
   known.key = {0, lower[0], lower[1], higher[0], higher[1]};
   known.place = contact.point - scene_.bodies[lower[0]].position;
   return known;
-}
-
-template <class Kind>
-void SimulationIn<Kind>::Fail(const Model& model, Level level, std::size_t island) const {
-  throw SimulationError(
-      fmt::format("frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided",
-                  statistics_.frames, time(), kLevelNames[static_cast<int>(level)], island + 1,
-                  model.islands[island].rows),
-      model.Problem(island));
 }
 
 template <class Kind>
@@ -315,7 +321,7 @@ void SimulationIn<Kind>::CorrectPositions() {
   ++statistics_.corrections;
   const Model model = AssembleAt(Level::kPositions);
   Forces f;
-  if (!Solve(model, Level::kPositions, f)) Fail(model, Level::kPositions, failed_);
+  Solve(model, Level::kPositions, true, f);
   const Changes change = Response(model, f);
   for (std::size_t i = 0; i < change.size(); ++i) Displace(scene_.bodies[i], change[i]);
   FindStepContacts();
@@ -348,7 +354,7 @@ void SimulationIn<Kind>::ApplyImpulses() {
     });
   });
   Forces p;
-  if (!Solve(model, Level::kImpulses, p)) Fail(model, Level::kImpulses, failed_);
+  Solve(model, Level::kImpulses, true, p);
   const Changes change = Response(model, p);
   for (std::size_t i = 0; i < change.size(); ++i) AddVelocity(scene_.bodies[i], change[i]);
 }
@@ -362,12 +368,12 @@ auto SimulationIn<Kind>::Accelerations() -> Changes {
     Model model = AssembleAt(Level::kForces);
     const bool all_held = std::ranges::all_of(contacts_, &Touch::held);
     Forces f;
-    if (!Solve(model, Level::kForces, f)) {
-      if (all_held) Fail(model, Level::kForces, failed_);
+    if (!Solve(model, Level::kForces, all_held, f) && !all_held) {
       ++statistics_.impulsive;
       for (Touch& contact : contacts_) contact.held = true;
       continue;
     }
+    Remember(model, f);
     Changes accelerations = BodyAccelerations(model, f);
     const int reversing = all_held ? 0 : HoldReversing(model, accelerations);
     statistics_.stopped += reversing;
@@ -433,7 +439,6 @@ double SimulationIn<Kind>::SlipOf(const Model& model, const ConstraintIn<Kind, d
 template <class Kind>
 void SimulationIn<Kind>::KeepForces(Model model, const Forces& f, const Changes& accelerations) {
   forces_.clear();
-  remembered_.clear();
   for (std::size_t i = 0; i < model.islands.size(); ++i) {
     int at = 0;
     for (const int k : model.islands[i].constraints) {
@@ -456,15 +461,28 @@ void SimulationIn<Kind>::KeepForces(Model model, const Forces& f, const Changes&
       } else {
         force.point = contacts_[constraint.source].point;
       }
-      Remembered& remembered = remembered_.emplace_back(Known(constraint, 0));
-      remembered.force = SideOf(constraint) * force.force;
-      remembered.along = force.rows[0];
-      remembered.constraint = nullptr;
       forces_.push_back(std::move(force));
     }
   }
-  std::stable_sort(remembered_.begin(), remembered_.end(), IsBefore);
   model_ = std::move(model);
+}
+
+// Forces to start the next problem from.
+template <class Kind>
+void SimulationIn<Kind>::Remember(const Model& model, const Forces& f) {
+  remembered_.clear();
+  for (std::size_t i = 0; i < model.islands.size(); ++i) {
+    int at = 0;
+    for (const int k : model.islands[i].constraints) {
+      const auto& constraint = model.constraints[k];
+      Remembered& remembered = remembered_.emplace_back(Known(constraint, 0));
+      remembered.along = f[i][at];
+      for (const auto& row : constraint.rows)
+        remembered.force += WayOf(row) * (SideOf(constraint) * f[i][at++]);
+      remembered.constraint = nullptr;
+    }
+  }
+  std::stable_sort(remembered_.begin(), remembered_.end(), IsBefore);
 }
 
 template <class Kind>
@@ -476,6 +494,14 @@ void SimulationIn<Kind>::Move(const Changes& accelerations) {
 
 template class SimulationIn<Plane>;
 template class SimulationIn<Space>;
+
+std::string TextOf(const UndecidedProblem& undecided) {
+  return fmt::format(
+      "frame {}, t = {:.6g} s: the problem of {} of island {} ({} rows) is undecided; the best forces miss "
+      "{:.2g} of what acts",
+      undecided.frame, undecided.time, kLevelNames[static_cast<int>(undecided.level)], undecided.island + 1,
+      undecided.problem.rows(), undecided.error);
+}
 
 // ---- Measures --------------------------------------------------------------------------------
 

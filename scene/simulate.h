@@ -42,18 +42,17 @@
 // SceneSolver from f = 0 (`warm`: false: in every step, and the answer depends on the state alone). f = 0 is
 // taken where it is a solution. Nothing else is promised.
 //
-// Errors. A frame whose problem is not solved to Request::residual (in space: kLooseResidual; with joints
-// or sliding contacts ten times that) ends the simulation: SimulationError. A solution may exist that doubles
-// miss. Cost. For each island one problem of forces, another for every time that contacts come to rest within
-// the step, one of positions where there are joints, one of impulses in a collision. For an island of 100 rows
-// and more in the plane, 10 in space, no A is formed.
+// Errors. A problem that is not solved to kLooseResidual (with joints ten times that) is undecided: the best
+// forces that were found are taken, the step goes on, and undecided() tells. There may be none, where driven
+// bodies close on each other, or one that doubles miss. Cost. For each island one problem of forces, another
+// for every time that contacts come to rest within the step, one of positions where there are joints, one of
+// impulses in a collision. For an island of 100 rows and more in the plane, 10 in space, no A is formed.
 
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -80,6 +79,7 @@ struct SimulationStatistics {
   std::int64_t corrections = 0;  // frames with corrected positions
   std::int64_t stopped = 0;      // contacts that came to rest within a step
   std::int64_t impulsive = 0;    // frames whose sliding contacts had no solution
+  std::int64_t undecided = 0;    // problems whose best forces are no solution
   std::int64_t fallbacks = 0;    // problems that complete driving solved
   std::int64_t loose = 0;        // problems solved to kLooseResidual only
   std::int64_t sparse = 0;       // problems solved in the space of bodies, without A
@@ -102,6 +102,7 @@ void ForEachField(S& s, Visit visit) {
   visit("corrections", "frames with corrected positions", s.corrections);
   visit("stopped", "sliding contacts that came to rest within a step", s.stopped);
   visit("impulsive", "frames whose sliding contacts had no solution", s.impulsive);
+  visit("undecided", "problems whose best forces are no solution", s.undecided);
   visit("fallbacks", "problems that complete driving solved", s.fallbacks);
   visit("loose", "problems solved to 1e-5 only", s.loose);
   visit("sparse", "problems solved in the space of bodies, without A", s.sparse);
@@ -118,13 +119,17 @@ struct FrameProblem {
   const ContactProblem<double>& problem;
 };
 
-class SimulationError : public std::runtime_error {
- public:
-  SimulationError(const std::string& message, ContactProblem<double> problem)
-      : std::runtime_error(message), problem(std::move(problem)) {}
-
+// A problem that was not solved: its best forces are those of the step.
+struct UndecidedProblem {
+  std::int64_t frame = 0;  // from 0
+  double time = 0;         // at its start, s
+  Level level = Level::kForces;
+  int island = 0;
+  double error = 0;  // of the forces, lenient
   ContactProblem<double> problem;
 };
+// Where, and how far its forces are from a solution.
+std::string TextOf(const UndecidedProblem& problem);
 
 // A force of contact or joint at a point, on a body `on` and opposite on its partner. World, N.
 template <class Kind>
@@ -169,8 +174,6 @@ class SimulationIn {
   explicit SimulationIn(SceneType scene, double step = 1.0 / 60, double rest = 0,
                         std::function<void(const FrameProblem&)> observe = {});
 
-  // One step. SimulationError if a problem is not solved; the state is then that at the start of the frame, or
-  // of the part of it that failed, but for corrected positions and impulses.
   void Step();
 
   const SceneType& scene() const { return scene_; }
@@ -179,6 +182,7 @@ class SimulationIn {
   // Of the last step.
   const std::vector<Applied>& forces() const { return forces_; }
   const std::vector<Touch>& contacts() const { return contacts_; }
+  const std::vector<UndecidedProblem>& undecided() const { return undecided_; }
   // Whose islands are the problems that those forces solve, in the order of forces(). Empty before a step.
   const ModelIn<Kind, double>& model() const { return model_; }
 
@@ -203,10 +207,9 @@ class SimulationIn {
   double Kick() const { return (step_ + before_) / 2; }  // from the middle of one step to that of the next
   double Overlap() const;
   Model AssembleAt(Level level) const;
-  bool Solve(const Model& model, Level level, Forces& f);
+  bool Solve(const Model& model, Level level, bool is_last, Forces& f);
   Eigen::VectorXd StartOf(const Model& model, Level level, std::size_t island) const;
   Remembered Known(const ConstraintIn<Kind, double>& constraint, int row) const;
-  [[noreturn]] void Fail(const Model& model, Level level, std::size_t island) const;
   void FindNear();
   void FindStepContacts();
   bool Closes(const Touch& contact, const Changes& accelerations) const;
@@ -220,6 +223,7 @@ class SimulationIn {
   Changes Accelerations();
   int HoldReversing(const Model& model, const Changes& accelerations);
   int KeepClosing(const Model& model, const Changes& accelerations);
+  void Remember(const Model& model, const Forces& f);
   void KeepForces(Model model, const Forces& f, const Changes& accelerations);
   double SpeedAfter(const Model& model, const ConstraintIn<Kind, double>& constraint, int row,
                     const Changes& accelerations) const;
@@ -243,7 +247,7 @@ class SimulationIn {
   std::vector<Applied> forces_;
   std::vector<Remembered> remembered_;  // by key
   Model model_;
-  std::size_t failed_ = 0;  // island
+  std::vector<UndecidedProblem> undecided_;  // of the last step
 };
 using Simulation = SimulationIn<Plane>;
 using SimulationInSpace = SimulationIn<Space>;

@@ -8,6 +8,7 @@
 #include "solver/numeric/body_newton.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/numeric/fast.h"
+#include "solver/numeric/interior_point.h"
 #include "solver/numeric/proximal.h"
 #include "solver/problem/lenient.h"
 #include "solver/problem/pressing.h"
@@ -30,9 +31,9 @@ constexpr double kNoise = 1e-11;
 // their drift.
 constexpr double kNoiseOfRepeated = 1e-7;
 
-// So often Newton's method may fail: from forces of the step before once for so many rows, since of a small
-// problem, whose contacts have just changed, other methods cost less; without a start, what fails more fails.
-constexpr int kRowsPerFailure = 40, kFailures = 12;
+constexpr int kFailures =
+    1;  // of Newton's method from a start: where it fails once more, contacts have changed
+constexpr double kAim = 1e-9;  // lenient error at which it ends
 
 constexpr int kLargeRows = 400;  // from which on A is better sparse in the plane, too
 
@@ -41,10 +42,17 @@ double NoiseOf(const Problem& problem, double share = kNoise) {
   return problem.rows() > 0 ? share * problem.b.cwiseAbs().maxCoeff() : 0;
 }
 
+Eigen::VectorXd AccelerationsOf(const ContactProblem<double>& problem, const Eigen::VectorXd& f) {
+  return problem.A * f + problem.b;
+}
+Eigen::VectorXd AccelerationsOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
+  return problem.Accelerations(f);
+}
+
 // The largest lenient error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f, double share = kNoise) {
-  Eigen::VectorXd a = problem.A * f + problem.b;
+  Eigen::VectorXd a = AccelerationsOf(problem, f);
   const double noise = NoiseOf(problem, share);
   for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
   return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
@@ -54,6 +62,22 @@ constexpr double kMostPressing = 1e7;  // of forces that are no sign that there 
 
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
+
+// No forces, if those that were found are worse.
+template <class Problem>
+SceneAnswer Undecided(const Problem& problem, SceneAnswer answer) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.rows());
+  answer.error = ErrorOf(problem, none);
+  const bool are_forces =
+      answer.f.size() == problem.rows() && answer.f.allFinite() && Pressing(problem, answer.f) <= kMostPressing;
+  const double error = are_forces ? ErrorOf(problem, answer.f) : answer.error;
+  if (are_forces && error <= answer.error) {
+    answer.error = error;
+  } else {
+    answer.f = none;
+  }
+  return answer;
+}
 
 template <class Problem>
 bool HasFriction(const Problem& problem) {
@@ -111,6 +135,7 @@ class SceneSolver::Methods {
   static const Turn kTurns[];
 
   SceneAnswer SolveScaled(const Dense& problem);
+  void FromNothing(const FactoredProblem<double>& problem, SceneAnswer& answer);
   // error_of(f): by which forces are taken where no method ends in a solution.
   template <class Error>
   bool TryInTurn(const Dense& problem, SceneAnswer& answer, Error error_of);
@@ -126,7 +151,8 @@ class SceneSolver::Methods {
   FastSolver<double> fast_;
   ProximalNewton<double> proximal_;
   CoulombSolver<double> coulomb_;
-  BodyNewton<double> bodies_;
+  BodyNewton bodies_;
+  InteriorPoint interior_;
 };
 
 const SceneSolver::Methods::Turn SceneSolver::Methods::kTurns[] = {
@@ -146,8 +172,8 @@ SceneAnswer SceneSolver::Solve(const FactoredProblem<double>& problem, const Eig
 SceneAnswer SceneSolver::Methods::Solve(const Dense& problem) {
   const RowScale scale = FindScale(problem);
   SceneAnswer answer = SolveScaled(Scaled(problem, scale));
-  ScaleBy(answer.f, scale.f);
-  return answer;
+  if (answer.f.size() == problem.rows()) ScaleBy(answer.f, scale.f);
+  return answer.Solved() ? answer : Undecided(problem, std::move(answer));
 }
 
 SceneAnswer SceneSolver::Methods::SolveScaled(const Dense& problem) {
@@ -176,23 +202,34 @@ SceneAnswer SceneSolver::Methods::SolveScaled(const Dense& problem) {
 
 SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
   SceneAnswer answer;
-  if (start != nullptr && IsAtRestWithoutForces(problem)) {
+  bodies_.request().noise = interior_.request().noise = NoiseOf(problem);
+  if (start == nullptr) {
+    FromNothing(problem, answer);
+  } else if (IsAtRestWithoutForces(problem)) {
     answer.f.setZero(problem.rows());
     answer.outcome = Outcome::kSolved;
   } else {
-    bodies_.request().noise = NoiseOf(problem);
-    bodies_.failures = start != nullptr ? problem.rows() / kRowsPerFailure : kFailures;
+    bodies_.failures = kFailures;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
-    if (!answer.Solved() && start == nullptr && problem.dimension == 2 && problem.rows() >= kLargeRows) {
-      if (RunProximal(ToSparse(problem), answer)) answer.outcome = Outcome::kSolved;
-      return answer;
-    }
   }
-  if (!answer.Solved()) return answer;
+  if (!answer.Solved()) return start != nullptr ? answer : Undecided(problem, std::move(answer));
   ++answer.counters[Counter::kSparse];
   answer.counters[Counter::kWarm] += start != nullptr;
   return answer;
+}
+
+// By the interior point, and from where it ends by Newton's method.
+void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, SceneAnswer& answer) {
+  interior_.measure = BestForces::Measure::kLenient;
+  interior_.loose = kLooseResidual;
+  interior_.aim = kAim;
+  answer.outcome = interior_.Run(problem).outcome;
+  answer.f = interior_.f();
+  if (answer.Solved()) return;
+  if (!(interior_.error() <= kLooseResidual) || Pressing(problem, answer.f) > kMostPressing) return;
+  answer.outcome = Outcome::kSolved;
+  answer.counters[Counter::kLoose] += interior_.error() > kWholeResidual;
 }
 
 template <class Error>

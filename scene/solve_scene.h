@@ -18,16 +18,18 @@
 //     complete, proximal
 //
 //   in factors, in which joints and sliding contacts stay: counted
-//     bodies      Newton's method in the space of bodies, from forces near a solution, which is counted, or
-//                 from f = 0; f = 0 itself where that is a solution
-//     proximal    large ones in the plane, without a start, with A sparse
+//     bodies      with a start: Newton's method in the space of bodies, from forces near a solution, which is
+//                 counted; f = 0 where that is a solution
+//     interior    without: the interior point method in the space of bodies, several attempts
 //
 // Where none ends in a solution, the forces of the smallest errors are taken up to kLooseResidual, and counted.
+// Beyond that a problem is undecided, and its answer has the best forces that were found.
 // A and b are scaled first (problem/row_scale.h). Forces of a reduced problem are checked by the errors of the
 // whole one.
 
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "solver/problem/answer.h"
@@ -43,9 +45,12 @@ namespace stiction {
 // is accepted to this one, and counted.
 inline constexpr double kLooseResidual = 1e-5;
 
-// solved or undecided; f is of no meaning if not solved. Counters: fallbacks, runs of complete driving; loose,
-// solved to kLooseResidual only; sparse, solved in the space of bodies; warm, from given forces.
-using SceneAnswer = Answer<double>;
+// Counters: fallbacks, runs of complete driving; loose, solved to kLooseResidual only; sparse, solved in the
+// space of bodies; warm, from given forces.
+struct SceneAnswer : Answer<double> {
+  // Where it is undecided: lenient (lenient.h), of f, the best that was found; infinite from a start.
+  double error = std::numeric_limits<double>::infinity();
+};
 
 // Reusable. Memory is kept between runs; answers do not depend on earlier ones.
 class SceneSolver {

@@ -24,7 +24,7 @@ class Simulation:
     `bodies`, `contacts`, `energy`, `drift` and `motion` are columns by the names that the files have; units and what
     each column means are listed in corpus/formats/simulation_tables.md. Those of `bodies` are states x bodies, state 0
     the scene as given. The others have a number for each row: `contacts` one for each contact of each step, whose state
-    is its column `step`. `reason` says why a step has no answer, where the run ended early; otherwise it is empty.
+    is its column `step`. `reason` tells of the first problem that was not solved; it is empty if all were.
     A notebook shows it as a page that plays it.
     """
 
@@ -140,8 +140,8 @@ def simulate(scene: Path | Mapping[str, Any], seconds: float | None = None, step
     """Steps a scene through time, over doubles: what `stiction simulate` does, and with the same numbers.
 
     `scene` is a stiction-scene file, or a dictionary like one. `seconds` and `step`, in s, are the scene's unless they
-    are given; `rest` and `full` are what `stiction simulate --help` says. A step that has no answer ends the run:
-    `reason`. Ctrl-C is a KeyboardInterrupt.
+    are given; `rest` and `full` are what `stiction simulate --help` says. Where a problem is not solved the best
+    forces are taken, and `reason` tells. Ctrl-C is a KeyboardInterrupt.
     """
     text, source = _scene_text(scene)
     if not isinstance(full, bool):

@@ -105,15 +105,18 @@ class Scenes(cli.TestCase):
         path = self.file("frame.json", problem)
         self.assertEqual(cli.run("solve", path, "--method", "fast", "--arithmetic", "double").code, 0)
 
-    def test_a_frame_without_an_answer_is_exit_3_and_its_problem_is_written(self):
+    def test_a_frame_without_an_answer_ends_nothing_and_is_told_exit_3_and_its_problem_is_written(self):
         jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}
         scene = {"format": "stiction-scene", "version": 1, "name": "vice", "dimension": 2, "bodies": [
             {"name": "left", "position": [-1.25, 0], "velocity": [1, 0], **jaw},
             {"name": "right", "position": [1.25, 0], "velocity": [-1, 0], **jaw},
             {"name": "block", "mass": "1", "shapes": [{"box": [1, 1]}]}]}
         folder = self.folder / "vice"
-        done = cli.run("simulate", self.file("vice.json", scene), "-o", folder, "--no-svg")
+        done = cli.run("simulate", self.file("vice.json", scene), "-o", folder, "--no-svg", "--json")
         self.assertEqual(done.code, 3)
+        statistics = json.loads(done.out)["statistics"]
+        self.assertEqual(statistics["frames"], 300)
+        self.assertGreater(statistics["undecided"], 0)
         self.assertIn("frame ", done.err)
         self.assertTrue((folder / "animation.html").exists())
         self.assertFalse((folder / "frames").exists())
