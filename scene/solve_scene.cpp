@@ -35,8 +35,6 @@ constexpr int kFailures =
     1;  // of Newton's method from a start: where it fails once more, contacts have changed
 constexpr double kAim = 1e-9;  // lenient error at which it ends
 
-constexpr int kLargeRows = 400;  // from which on A is better sparse in the plane, too
-
 template <class Problem>
 double NoiseOf(const Problem& problem, double share = kNoise) {
   return problem.rows() > 0 ? share * problem.b.cwiseAbs().maxCoeff() : 0;
@@ -83,15 +81,6 @@ template <class Problem>
 bool HasFriction(const Problem& problem) {
   return std::any_of(problem.contacts.begin(), problem.contacts.end(),
                      [](const auto& contact) { return contact.HasFrictionRows(); });
-}
-
-SparseContactProblem<double> ToSparse(const FactoredProblem<double>& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
-  ForEachEntry(problem.A, [&entries](int i, int j, double x) { entries.emplace_back(i, j, x); });
-  SparseContactProblem<double> sparse{problem.dimension, problem.contacts, {}, problem.b};
-  sparse.A.resize(problem.rows(), problem.rows());
-  sparse.A.setFromTriplets(entries.begin(), entries.end());
-  return sparse;
 }
 
 // Whether f = 0 is a solution.

@@ -14,7 +14,8 @@ constexpr double kLeastTau = 1e-28;
 constexpr int kRefinements = 2;  // of each solution of K x = y
 constexpr int kPatience = 6;     // attempts after which what is loose has to do
 constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
-constexpr int kFinishSteps = 12, kFinishFailures = 20, kPolishFailures = 1, kPolishPoints = 6;
+constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolishFailures = 1,
+              kPolishPoints = 6;
 
 }  // namespace
 
@@ -57,7 +58,7 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
     ++verdict_.statistics[Counter::kStarts];
     Begin(kTurns[i < kTurnCount ? i : 1 + (i - 1) % (kTurnCount - 1)]);
     Follow();
-    Finish();
+    Finish(i + 1 == most);
   }
   if (best_.f().size() != problem.rows()) best_.Offer(f_);
   if (best_.IsGood()) {
@@ -196,15 +197,16 @@ void InteriorPoint::Follow() {
   }
 }
 
-// From the best forces by Newton's method, which is exact to rounding where it settles.
-void InteriorPoint::Finish() {
+// From the best forces by Newton's method, which is exact to rounding where it settles. Another attempt costs
+// less than its patience, but for the last.
+void InteriorPoint::Finish(bool is_last) {
   if (best_.f().size() != problem_->rows()) return;
   const bool polishes = best_.IsGood();
   newton_.request() = request_;
   newton_.measure = measure;
   newton_.steps = kFinishSteps;
   newton_.warm_eps = polishes ? kPolishEps : kFinishEps;
-  newton_.failures = polishes ? kPolishFailures : kFinishFailures;
+  newton_.failures = polishes ? kPolishFailures : is_last ? kLastFailures : kFinishFailures;
   newton_.points = polishes ? kPolishPoints : BodyNewton::kPoints;
   const Vector start = best_.f();
   const RunEnd<> end = newton_.Run(*problem_, &start);

@@ -101,7 +101,7 @@ class InteriorPoint {
   int MostAttempts() const;
   void Begin(const Attempt& attempt);
   void Follow();
-  void Finish();
+  void Finish(bool is_last);
   template <class Visit>
   void ForEachPair(Visit visit);
   double MeanProduct();
