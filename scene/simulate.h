@@ -36,17 +36,19 @@
 // and what was left of it was done without. Forces and contacts are those of the last part. Observers see the
 // problems of steps that were taken back too, and all counters but `frames` and `contacts` count them.
 //
-// Which solution. Forces and accelerations need not be unique. The forces of a step start from those of the
-// step before: each contact's goes to the nearest of the contacts between the same pieces, each joint's row
-// keeps its own. What is found is a solution near them; where none is, and in the first step, it is that of
-// SceneSolver from f = 0 (`warm`: false: in every step, and the answer depends on the state alone). f = 0 is
-// taken where it is a solution. Nothing else is promised.
+// Which solution. Forces and accelerations need not be unique. The forces of a step start from those found
+// last, in it or in the step before: each contact's goes to the nearest of the contacts between the same
+// pieces, each joint's row keeps its own. What is found is a solution near them; where none is, or more than a
+// few contacts are new, and in the first step, it is that of SceneSolver without a start (`warm`: false: in
+// every step, and the answer depends on the state alone). f = 0 is taken where it is a solution. Nothing else
+// is promised.
 //
 // Errors. A problem that is not solved to kLooseResidual (with joints ten times that) is undecided: the best
 // forces that were found are taken, the step goes on, and undecided() tells. There may be none, where driven
 // bodies close on each other, or one that doubles miss. Cost. For each island one problem of forces, another
 // for every time that contacts come to rest within the step, one of positions where there are joints, one of
-// impulses in a collision. For an island of 100 rows and more in the plane, 10 in space, no A is formed.
+// impulses in a collision. For an island of 40 rows and more in the plane, 10 in space, no A is formed where
+// that can be.
 
 #pragma once
 
