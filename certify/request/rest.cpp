@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/request/rest.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+
 #include "certify/exact/bodies.h"
 #include "certify/exact/interval.h"
 #include "certify/exact/rest.h"
@@ -80,13 +83,48 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
   return moving;
 }
 
+// By how much f is outside of the cone of a contact, in forces of `row` on.
+double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int row, int rows) {
+  if (contact.kind == ContactKind::kBilateral) return 0;
+  const double beyond = rows > 1 ? TangentLength(f, row, rows) - Limit(contact.mu, f[row]) : 0.0;
+  return std::max(-f[row], beyond);
+}
+
+// Whether doubles tell that no group of contacts that moves has forces under which it rests: A is regular, so
+// there are no others than -inv(A) b, and those are clearly outside of their cones.
+bool CannotRest(const ContactProblem<double>& problem, const ExactVector& moving) {
+  constexpr double kRegular = 1e-6, kClearly = 1e-6;
+  const bool slides = std::ranges::any_of(
+      problem.contacts, [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
+  if (slides || problem.A != problem.A.transpose()) return false;
+  const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
+  const Eigen::VectorXd pivots = factors.vectorD();
+  if (pivots.size() == 0 || !(pivots.minCoeff() > kRegular * pivots.maxCoeff())) return false;
+  const Eigen::VectorXd f = -factors.solve(problem.b);
+  if (!f.allFinite()) return false;
+  Groups groups;
+  groups.Find(problem);
+  std::vector<char> moves(problem.contacts.size(), false), leaves = moves;
+  const double clear = kClearly * f.cwiseAbs().maxCoeff();
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    const int group = groups.Of(i);
+    for (int k = row; k < row + rows; ++k) moves[group] |= moving[k] != 0;
+    leaves[group] |= OutsideCone(problem.contacts[i], f, row, rows) > clear;
+  });
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (moves[i] && !leaves[i]) return false;
+  return true;
+}
+
 }  // namespace
 
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
                 const Request& request, InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
+  const ExactVector moving = Moving(rounded, answer);
+  if (moving.isZero(0) || CannotRest(rounded, moving)) return;
   const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const auto rest = ForcesAtRest(file(), f, Moving(rounded, answer));
+  const auto rest = ForcesAtRest(file(), f, moving);
   if (!rest) return;
   InexactAnswer resting = answer;
   resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
