@@ -139,6 +139,7 @@ void SimulationIn<Kind>::TakeStep() {
   do {
     if (Collides()) ApplyImpulses();
   } while (AddClosing(accelerations));
+  solved_.clear();
   do {
     accelerations = Accelerations();
   } while (AddClosing(accelerations));
@@ -200,45 +201,71 @@ bool SimulationIn<Kind>::AddClosing(const Changes& accelerations) {
 
 // ---- Solving ---------------------------------------------------------------------------------
 
-// Islands at the same time where there is work enough: every answer depends on its own problem alone. False
-// where an island is undecided; if these forces are the last word, that is told.
+// Islands that are not known of an earlier round of the step, at the same time where there is work enough:
+// every answer depends on its own problem alone. False where an island is undecided; if these forces are the
+// last word, that is told.
 template <class Kind>
 bool SimulationIn<Kind>::Solve(const Model& model, Level level, bool is_last, Forces& f) {
   const std::size_t count = model.islands.size();
-  int rows = 0, largest = 0;
+  f.assign(count, {});
+  std::vector<std::size_t> open;
+  int largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    rows += model.islands[i].rows;
-    largest = std::max(largest, model.islands[i].rows);
+    if (level == Level::kForces) {
+      const auto known = solved_.find(KeyOf(model, i));
+      if (known != solved_.end()) {
+        f[i] = known->second;
+        continue;
+      }
+    }
+    open.push_back(i);
+    const int rows = model.islands[i].rows;
+    ++statistics_.problems;
+    statistics_.rows += rows;
+    largest = std::max(largest, rows);
     if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), model.Problem(i)});
   }
-  statistics_.problems += static_cast<std::int64_t>(count);
-  statistics_.rows += rows;
 
-  f.resize(count);
-  std::vector<SceneAnswer> answers(count);
-  const auto solve = [&](std::size_t i) {
-    answers[i] = SolveIsland<Kind>(solvers_.local(), model, level, i, StartOf(model, level, i));
+  std::vector<SceneAnswer> answers(open.size());
+  const auto solve = [&](std::size_t k) {
+    answers[k] = SolveIsland<Kind>(solvers_.local(), model, level, open[k], StartOf(model, level, open[k]));
   };
-  if (count > 1 && largest >= kParallelRows) {
-    ForEachInParallel(count, solve);
+  if (open.size() > 1 && largest >= kParallelRows) {
+    ForEachInParallel(open.size(), solve);
   } else {
-    for (std::size_t i = 0; i < count; ++i) solve(i);
+    for (std::size_t k = 0; k < open.size(); ++k) solve(k);
   }
   bool solved = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    SceneAnswer& answer = answers[i];
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    SceneAnswer& answer = answers[k];
+    const std::size_t i = open[k];
     statistics_.fallbacks += answer.counters[Counter::kFallbacks];
     statistics_.loose += answer.counters[Counter::kLoose];
     statistics_.sparse += answer.counters[Counter::kSparse];
     statistics_.warm += answer.counters[Counter::kWarm];
     solved = solved && answer.Solved();
     f[i] = std::move(answer.f);
-    if (answer.Solved() || !is_last) continue;
-    ++statistics_.undecided;
-    undecided_.push_back(
-        {statistics_.frames, time(), level, static_cast<int>(i), answer.error, model.Problem(i)});
+    if (answer.Solved()) {
+      if (level == Level::kForces) solved_.emplace(KeyOf(model, i), f[i]);
+    } else if (is_last) {
+      ++statistics_.undecided;
+      undecided_.push_back(
+          {statistics_.frames, time(), level, static_cast<int>(i), answer.error, model.Problem(i)});
+    }
   }
   return solved;
+}
+
+// The same constraints of one state are the same problem.
+template <class Kind>
+auto SimulationIn<Kind>::KeyOf(const Model& model, std::size_t island) const -> IslandKey {
+  IslandKey key;
+  for (const int k : model.islands[island].constraints) {
+    const auto& constraint = model.constraints[k];
+    key.push_back(
+        {constraint.from_joint, constraint.source, constraint.part, static_cast<int>(constraint.law.kind)});
+  }
+  return key;
 }
 
 // Forces of the step before, by row of the island; empty where no constraint of it was there. The force of a

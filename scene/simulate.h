@@ -55,6 +55,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -202,6 +203,8 @@ class SimulationIn {
     const ConstraintIn<Kind, double>* constraint = nullptr;
     int row = 0;
   };
+  // Of an island: from_joint, source, part and kind of its constraints.
+  using IslandKey = std::vector<std::array<int, 4>>;
   static bool IsBefore(const Remembered& one, const Remembered& other) { return one.key < other.key; }
 
   void StepBy(double h, int halvings);
@@ -210,6 +213,7 @@ class SimulationIn {
   double Overlap() const;
   Model AssembleAt(Level level) const;
   bool Solve(const Model& model, Level level, bool is_last, Forces& f);
+  IslandKey KeyOf(const Model& model, std::size_t island) const;
   Eigen::VectorXd StartOf(const Model& model, Level level, std::size_t island) const;
   Remembered Known(const ConstraintIn<Kind, double>& constraint, int row) const;
   void FindNear();
@@ -249,7 +253,8 @@ class SimulationIn {
   std::vector<Applied> forces_;
   std::vector<Remembered> remembered_;  // by key
   Model model_;
-  std::vector<UndecidedProblem> undecided_;  // of the last step
+  std::map<IslandKey, Eigen::VectorXd> solved_;  // forces of islands, of earlier rounds of this step
+  std::vector<UndecidedProblem> undecided_;      // of the last step
 };
 using Simulation = SimulationIn<Plane>;
 using SimulationInSpace = SimulationIn<Space>;
