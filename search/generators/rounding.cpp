@@ -28,8 +28,12 @@ ExactProblem Rescaled(const ExactProblem& problem, const std::vector<Rational>& 
 // The power of two nearest to 1 / sqrt(x) from above, within a factor of two; 1 for x <= 0.
 Rational InverseRoot(const Rational& x) {
   if (x <= 0) return 1;
-  const double exponent = std::ilogb(ToDouble(x));
-  const auto half = static_cast<long>(-exponent / 2);
+  const mpz_class &above = x.get_num(), &below = x.get_den();
+  long exponent = static_cast<long>(mpz_sizeinbase(above.get_mpz_t(), 2)) -
+                  static_cast<long>(mpz_sizeinbase(below.get_mpz_t(), 2));
+  const mpz_class longer = (exponent > 0 ? below : above) << std::abs(exponent);
+  if (exponent > 0 ? above < longer : longer < below) --exponent;  // of 2^exponent <= x: x may be no double
+  const long half = -exponent / 2;
   const Rational power(mpz_class(1) << std::abs(half));
   return half < 0 ? Rational(1 / power) : power;
 }

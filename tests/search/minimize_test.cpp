@@ -9,6 +9,7 @@
 #include "certify/exact/published_space.h"
 #include "corpus/json.h"
 #include "corpus/record/problem_file.h"
+#include "search/generators/rounding.h"
 #include "search/units/signature.h"
 #include "tests/support.h"
 
@@ -27,6 +28,18 @@ std::string Lack(const ExactProblem& problem, const MinimizeOptions& options) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST_CASE("minimize: units are found for numbers that no double holds") {
+  const Rational large(mpz_class("1" + std::string(400, '0')));
+  ExactProblem problem;
+  problem.contacts.assign(2, {.kind = ContactKind::kFrictionless, .mu = 0, .slip = {0, 0}});
+  problem.A = ExactMatrix::Constant(2, 2, Rational(0));
+  problem.A(0, 0) = large;
+  problem.A(1, 1) = 1 / large;
+  problem.b = ExactVector::Constant(2, Rational(-1));
+  const ExactProblem even = Equilibrated(problem);
+  for (int i = 0; i < 2; ++i) CHECK((even.A(i, i) >= Rational(1, 4) && even.A(i, i) <= 4));
 }
 
 TEST_CASE("minimize: outcome and assumptions are kept, the problem becomes simpler and cannot become simpler",

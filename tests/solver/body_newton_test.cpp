@@ -8,18 +8,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solver/problem/gate.h"
 #include "tests/solver/draw_factors.h"
 
 namespace stiction {
 namespace {
 
 using testing::DrawFactors;
+using testing::GateErrorOf;
 using testing::InFactors;
-
-double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
-  return BoundErrors(DenseOf(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
-}
 
 TEST_CASE("body newton: from a solution it factors nothing, and stays there") {
   DrawFactors draw(3);

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "solver/problem/gate.h"
 #include "tests/factored.h"
 
 namespace stiction::testing {
@@ -49,6 +50,10 @@ class DrawFactors {
  private:
   std::mt19937 random_;
 };
+
+inline double GateErrorOf(const FactoredProblem<double>& problem, const Eigen::VectorXd& f) {
+  return BoundErrors(DenseOf(problem), FrictionLaw::kCoulomb, f, GateOf<double>()).Largest();
+}
 
 // J -> D J, c -> D c.
 inline FactoredProblem<double> InOtherUnits(const FactoredProblem<double>& problem, const Eigen::VectorXd& D) {
