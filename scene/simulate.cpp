@@ -112,6 +112,7 @@ void SimulationIn<Kind>::StepBy(double h, int halvings_left) {
   before.reserve(scene_.bodies.size());
   for (const auto& body : scene_.bodies) before.push_back(MotionOf(body));
   const double step_before = before_;
+  const std::size_t told = undecided_.size();
   step_ = h;
   TakeStep();
   FindNear();
@@ -119,6 +120,7 @@ void SimulationIn<Kind>::StepBy(double h, int halvings_left) {
   exhausted_ = halvings_left == 0;
   if (exhausted_) return;
   ++statistics_.halved;
+  undecided_.resize(told);
   for (std::size_t i = 0; i < before.size(); ++i) {
     auto& body = scene_.bodies[i];
     std::tie(body.position, body.rotation, body.velocity, body.spin) = before[i];

@@ -57,6 +57,9 @@ double ErrorOf(const Problem& problem, const typename Problem::Vector& f, double
 }
 
 constexpr double kMostPressing = 1e7;  // of forces that are no sign that there is no solution
+// Of what acts, by forces that are measured in units of their own: of what grows without end they miss all of
+// it.
+constexpr double kMostMissed = 1.0 / 16;
 
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
@@ -208,17 +211,17 @@ SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, 
   return answer;
 }
 
-// By the interior point, and from where it ends by Newton's method.
+// By the interior point, which Newton's method ends.
 void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, SceneAnswer& answer) {
   interior_.measure = BestForces::Measure::kLenient;
   interior_.loose = kLooseResidual;
   interior_.aim = kAim;
-  answer.outcome = interior_.Run(problem).outcome;
+  interior_.Run(problem);
   answer.f = interior_.f();
-  if (answer.Solved()) return;
-  if (!(interior_.error() <= kLooseResidual) || Pressing(problem, answer.f) > kMostPressing) return;
+  const double error = interior_.error(), pressing = Pressing(problem, answer.f);
+  if (!(error <= kLooseResidual) || pressing > kMostPressing || error * pressing > kMostMissed) return;
   answer.outcome = Outcome::kSolved;
-  answer.counters[Counter::kLoose] += interior_.error() > kWholeResidual;
+  answer.counters[Counter::kLoose] += error > kWholeResidual;
 }
 
 template <class Error>
