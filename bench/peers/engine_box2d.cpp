@@ -24,6 +24,7 @@ class Box2dEngine : public Engine {
       b2BodyDef definition;
       definition.type = body.fixed ? b2_staticBody : b2_dynamicBody;
       definition.position = In2d(body.pose.position);
+      definition.linearVelocity = In2d(body.velocity);
       bodies_.push_back(world_.CreateBody(&definition));
       b2PolygonShape shape;
       const b2Vec2 half = In2d(body.half);

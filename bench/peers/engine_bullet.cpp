@@ -53,6 +53,7 @@ class BulletEngine : public Engine {
     added.setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), InBullet(body.pose.position)));
     added.setFriction(std::sqrt(given.mu));  // of a pair it takes the product
     added.setActivationState(DISABLE_DEACTIVATION);
+    added.setLinearVelocity(InBullet(body.velocity));
     added.setAngularVelocity(InBullet(body.spin));
     if (given.planar) added.setLinearFactor({1, 1, 0});
     if (given.planar) added.setAngularFactor({0, 0, 1});

@@ -52,6 +52,7 @@ class MujocoEngine : public Engine {
     for (int k = 0, dof = 0; k < static_cast<int>(world.bodies.size()); ++k) {
       const EngineBody& body = world.bodies[k];
       if (body.fixed) continue;
+      for (int i = 0; i < (world.planar ? 2 : 3); ++i) data_->qvel[dof + i] = body.velocity[i];
       for (int i = 0; i < 3 && !world.planar; ++i) data_->qvel[dof + 3 + i] = body.spin[i];
       dof += world.planar ? 3 : 6;
     }

@@ -63,6 +63,7 @@ class OdeEngine : public Engine {
     dBodySetMass(body, &mass);
     dGeomSetBody(geoms_.back(), body);
     dBodySetPosition(body, at.x(), at.y(), at.z());
+    dBodySetLinearVel(body, given.velocity.x(), given.velocity.y(), given.velocity.z());
     dBodySetAngularVel(body, given.spin.x(), given.spin.y(), given.spin.z());
     dBodySetAutoDisableFlag(body, 0);
     if (planar) dJointAttach(dJointCreatePlane2D(world_, nullptr), body, nullptr);

@@ -3,6 +3,7 @@
 // second. Each scene is made as a scene file, which stiction simulates; engines are given its bodies.
 //
 //   frames a second   of processor time, of the steps alone
+//   worst frame       the longest step, ms
 //   moved             the farthest that a body is at the end from where it stood; of scenes that rest
 //   drift             how fast that grows in the second half, m/s
 //   overlap           the deepest of any two bodies, at ten times; measured by stiction for all
@@ -132,12 +133,29 @@ EngineScene InsideTheCone(int dimension) {
   return scene;
 }
 
+// With a block, ten times as heavy as a brick, that is thrown at the wall at 20 m/s.
+EngineScene Hit(EngineScene wall, const std::string& name, int courses) {
+  const int dimension = wall.json["dimension"];
+  wall.name = name;
+  wall.json["name"] = name;
+  wall.rests = false;
+  Json block =
+      Box("block", 10, Point(dimension, -2, 0, courses / 4.0), dimension == 2 ? Json{1, 1} : Json{1, 1, 1});
+  block["velocity"] = dimension == 2 ? Json{20, 0} : Json{20, 0, 0};
+  wall.json["bodies"].push_back(std::move(block));
+  return wall;
+}
+
 std::vector<EngineScene> EngineScenes() {
   std::vector<EngineScene> scenes = {Wall("wall-95", 2, 10, 10),
                                      Wall("wall-46", 2, 4, 12),
                                      Wall("wall-23", 2, 2, 12),
                                      Wall("wall-27-space", 3, 6, 5),
                                      Wall("wall-95-space", 3, 10, 10),
+                                     Hit(Wall("", 2, 7, 7), "hit-46", 7),
+                                     Hit(Wall("", 2, 10, 10), "hit-95", 10),
+                                     Hit(Wall("", 3, 4, 4), "hit-14-space", 4),
+                                     Hit(Wall("", 3, 6, 5), "hit-27-space", 6),
                                      Pile(),
                                      Dominoes()};
   for (const int dimension : {2, 3}) {
@@ -175,7 +193,11 @@ template <class Kind>
 EngineWorld WorldOf(const SceneIn<Kind, double>& scene) {
   EngineWorld world{Kind::kDimension == 2, scene.mu, 1.0 / kFramesASecond, InWorld(scene.gravity), {}};
   for (const auto& body : scene.bodies) {
-    EngineBody box{body.fixed, body.mass, Eigen::Vector3d::Constant(0.5), PoseOfBody(body),
+    EngineBody box{body.fixed,
+                   body.mass,
+                   Eigen::Vector3d::Constant(0.5),
+                   PoseOfBody(body),
+                   InWorld(body.velocity),
                    SpinInWorld(body.spin)};
     for (const auto& corner : body.shapes.front().corners)  // about the origin, along the axes
       box.half.head<Kind::kDimension>() = corner.cwiseAbs();
@@ -259,12 +281,14 @@ Json MeasureEngine(const EngineKind& kind, const EngineScene& scene, const Scene
   Json row = {{"engine", kind.name}, {"version", kind.version}};
   std::vector<double> moved = {0};
   std::vector<Pose> poses;
-  double seconds = 0, overlap = 0;
+  double seconds = 0, worst = 0, overlap = 0;
   const auto engine = kind.make(world);
   for (int frame = 1; frame <= frames && seconds < cap; ++frame) {
     const Stopwatch watch;
     engine->Step();
-    seconds += watch.Seconds();
+    const double step = watch.Seconds();
+    seconds += step;
+    worst = std::max(worst, step);
     poses = PosesOf(*engine, world.bodies.size());
     moved.push_back(MovedBy(world, poses));
     if (!std::isfinite(moved.back())) break;
@@ -273,6 +297,7 @@ Json MeasureEngine(const EngineKind& kind, const EngineScene& scene, const Scene
   if (!poses.empty() && std::isfinite(moved.back())) overlap = std::max(overlap, OverlapOf(file, poses));
   const std::size_t done = moved.size() - 1, half = done / 2;
   row["frames a second"] = static_cast<double>(done) / seconds;
+  row["worst frame"] = 1000 * worst;
   row["frames"] = done;
   row["moved"] = scene.rests ? Finite(moved.back()) : Json();
   row["drift"] = scene.rests && done > half
@@ -317,7 +342,8 @@ void PrintScene(const Json& scene) {
                                           scene["scene"].get<std::string>(), scene["bodies"].get<int>())};
   for (const Json& row : scene["rows"]) {
     Json shown = {{"engine", row["engine"]}, {"version", row["version"]}};
-    for (const char* key : {"rank", "frames a second", "frames", "moved", "drift", "overlap", "end"})
+    for (const char* key :
+         {"rank", "frames a second", "worst frame", "frames", "moved", "drift", "overlap", "end"})
       shown[key] = row[key].is_null() ? Json("-") : row[key];
     table.rows.push_back(shown);
   }

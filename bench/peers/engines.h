@@ -25,7 +25,7 @@ struct EngineBody {
   double mass = 1;
   Eigen::Vector3d half = Eigen::Vector3d::Ones();  // of its edges
   Pose pose;
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d Inertia() const {
     const Eigen::Vector3d squares = half.cwiseAbs2();

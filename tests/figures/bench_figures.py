@@ -355,6 +355,10 @@ def engine_cell(row):
     return "falls" if row["end"] == "falls" else three(row["frames a second"]) + moved
 
 
+def worst_cell(row):
+    return "" if row is None or row["end"] == "falls" else three(row["worst frame"])
+
+
 def drift_cell(row):
     if row is None or row["end"] == "falls":
         return ""
@@ -371,7 +375,8 @@ def engines(program):
     parts = [table([head, *versions], [(f"`{scene['scene']}`, {scene['bodies']}",
                                         *(cell(found.get((scene["scene"], engine))) for engine in versions))
                                        for scene in scenes])
-             for head, cell in (("frames a second, of boxes", engine_cell), ("drift; overlap", drift_cell))]
+             for head, cell in (("frames a second, of boxes", engine_cell), ("worst frame, ms", worst_cell),
+                                ("drift; overlap", drift_cell))]
     told = ", ".join(f"{engine.split(',')[0]} {version}" for engine, version in versions.items() if version != "this")
     clocks = result["clocks"]
     return "\n\n".join((*parts, prose(
