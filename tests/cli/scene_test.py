@@ -115,7 +115,7 @@ class Scenes(cli.TestCase):
         done = cli.run("simulate", self.file("vice.json", scene), "-o", folder, "--no-svg", "--json")
         self.assertEqual(done.code, 3)
         statistics = json.loads(done.out)["statistics"]
-        self.assertEqual(statistics["frames"], 300)
+        self.assertEqual(statistics["frames"], 120)
         self.assertGreater(statistics["undecided"], 0)
         self.assertIn("frame ", done.err)
         self.assertTrue((folder / "animation.html").exists())

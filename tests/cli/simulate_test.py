@@ -105,7 +105,7 @@ class Tables(cli.TestCase):
         self.assertEqual(sorted(file.name for file in out.iterdir() if not file.name.startswith(".")), ["animation.html"])
         self.refuses("simulate", FOLDER / "stack.json", "-o", out, "--tables", "xml", says=["csv", "jsonl"])
 
-    def test_names_are_quoted_and_a_run_that_ends_early_has_what_came_before(self):
+    def test_names_are_quoted_and_a_run_with_an_undecided_problem_has_all_tables(self):
         jaw = {"fixed": True, "shapes": [{"box": [1, 1]}]}
         scene = {"format": "stiction-scene", "version": 1, "name": "vice", "dimension": 2, "bodies": [
             {"name": 'left, "the" jaw', "position": [-1.2, 0], "velocity": [1, 0], **jaw},
