@@ -273,11 +273,12 @@ class Peers(cli.TestCase):
 
     def test_engines_simulate_the_same_boxes_and_what_falls_has_no_rank(self):
         done = cli.run("bench", "--suite", "engines", "--json", "--problems", 60, "--families", "wall-23",
-                       "boxes-1-to-10000-space", "dominoes-20", timeout=900)
+                       "boxes-1-to-10000-space", "dominoes-20", "hit-14-space", timeout=900)
         self.assertEqual(done.code, 0, done.err)
         scenes = {scene["scene"]: scene for scene in done.json()["tables"][0]["scenes"]}
         self.assertEqual({name: scene["bodies"] for name, scene in scenes.items()},
-                         {"wall-23": 23, "dominoes-20": 20, "boxes-1-to-10000-space": 10})
+                         {"wall-23": 23, "dominoes-20": 20, "hit-14-space": 15, "boxes-1-to-10000-space": 10})
+        moving = ("dominoes-20", "hit-14-space")
         for name, scene in scenes.items():
             rates = sorted((row["frames a second"] for row in scene["rows"] if row["end"] != "falls"), reverse=True)
             for row in scene["rows"]:
@@ -285,8 +286,9 @@ class Peers(cli.TestCase):
                     self.assertTrue(row["version"])
                     self.assertLessEqual(row["frames"], 60)
                     self.assertEqual(row["rank"], None if row["end"] == "falls" else rates.index(row["frames a second"]) + 1)
-                    self.assertEqual(row["end"] == "ends", name == "dominoes-20" and row["end"] != "falls")
-                    if row["engine"] == "stiction" and name != "dominoes-20":
+                    self.assertEqual(row["end"] == "ends", name in moving and row["end"] != "falls")
+                    self.assertGreaterEqual(row["worst frame"], 999 / row["frames a second"])
+                    if row["engine"] == "stiction" and name not in moving:
                         self.assertEqual((row["end"], row["frames"]), ("stands", 60))
                         self.assertLess(row["moved"], 1e-9)
         self.assertIn("wall-95", self.refuses("bench", "--suite", "engines", "--families", "tower", says="'tower'").err)
