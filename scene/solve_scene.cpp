@@ -64,9 +64,10 @@ constexpr double kMostMissed = 1.0 / 16;
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
 
-// No forces, if those that were found are worse.
+// Of what is undecided: the error of its forces; no forces, if those that were found are worse.
 template <class Problem>
-SceneAnswer Undecided(const Problem& problem, SceneAnswer answer) {
+void KeepBest(const Problem& problem, SceneAnswer& answer) {
+  if (answer.Solved()) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.rows());
   answer.error = ErrorOf(problem, none);
   const bool are_forces =
@@ -77,7 +78,6 @@ SceneAnswer Undecided(const Problem& problem, SceneAnswer answer) {
   } else {
     answer.f = none;
   }
-  return answer;
 }
 
 template <class Problem>
@@ -165,7 +165,8 @@ SceneAnswer SceneSolver::Methods::Solve(const Dense& problem) {
   const RowScale scale = FindScale(problem);
   SceneAnswer answer = SolveScaled(Scaled(problem, scale));
   if (answer.f.size() == problem.rows()) ScaleBy(answer.f, scale.f);
-  return answer.Solved() ? answer : Undecided(problem, std::move(answer));
+  KeepBest(problem, answer);
+  return answer;
 }
 
 SceneAnswer SceneSolver::Methods::SolveScaled(const Dense& problem) {
@@ -205,7 +206,8 @@ SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, 
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
   }
-  if (!answer.Solved()) return start != nullptr ? answer : Undecided(problem, std::move(answer));
+  if (start == nullptr) KeepBest(problem, answer);
+  if (!answer.Solved()) return answer;
   ++answer.counters[Counter::kSparse];
   answer.counters[Counter::kWarm] += start != nullptr;
   return answer;
