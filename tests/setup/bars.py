@@ -8,8 +8,8 @@ BUILD (build/release) is asked for the processor time of its compilations. --lis
 rule: what to mend. --against compiles the program of COMMIT, of the whole clone, and that of this tree, one after the
 other and from nothing, in build/against: seconds of one machine in one hour can be compared, others cannot.
 
-Lines are those of files, blank ones and comments among them; those that the commits of the recipes added are features
-of their own and not counted. The product is what a user runs: tests, and the peers that bench measures, are not in it.
+Lines are those of files, blank ones and comments among them; those that the commits of the recipes and of FEATURES added
+are not counted, and the latter said. The product is what a user runs: tests, and the peers that bench measures, are not in it.
 Rules look at what sources do, so that a new name lowers no count:
 
   type            what stands behind struct, class, enum and union
@@ -44,6 +44,9 @@ PRODUCT = ("bench", "certify", "cli", "corpus", "python", "reports", "scene", "s
 CODE = (".h", ".ipp", ".cpp", ".py", ".pyi", ".js", ".mjs")
 TEXT = (".txt", ".in", "words.json")  # with places that code fills in, or read as tables
 RECIPES = {"method": 4, "generator": 3, "claim": 5, "verb": 3, "field": 3}  # files that its commit touches, at most
+FEATURES = {  # that came later: their commits, and the most lines that they may have cost
+    "impacts": ("eaeb8eaf 38bca15b f30ea018 c3ed82e3 27b1a8ce 590fb9bf 29f85f8d", 800),
+    "rest without rationals": ("4845d61a", 60)}
 JSON_HEADERS = ("nlohmann/json.hpp",)
 GENERATED = re.compile(r"reports/(examples|web/dist|web/solver)/|.*\.(svg|png|pdf|wasm)(\.gz)?$")
 PROOFS = ("certify/condition_number.md", "certify/coq/README.md", "certify/existence.md", "certify/related_work.md",
@@ -283,14 +286,17 @@ def share_against(commit):
     return round(now / before, 2)
 
 
-def recipe_lines(recipe):
-    """(file, lines that came, lines that went) of the commit of the recipe that CONTRIBUTING.md names; None where Git
-    does not have it."""
-    commit = re.search(rf"^\*\*A {recipe}\b[^*]*\*\* \(([0-9a-f]+)\)", text("CONTRIBUTING.md"), re.M)[1]
+def commit_lines(commit):
+    """(file, lines that came, lines that went); None where Git does not have it."""
     listed = git("show", "--format=", "--numstat", "--no-renames", commit, "--")
     rows = re.findall(r"^([\d-]+)\t([\d-]+)\t(.*)$", listed or "", re.M)  # "-" of a file that is no text
     return None if listed is None else [(name, int(came.strip("-") or 0), int(went.strip("-") or 0))
                                         for came, went, name in rows]
+
+
+def recipe_lines(recipe):
+    """Of the commit of the recipe that CONTRIBUTING.md names."""
+    return commit_lines(re.search(rf"^\*\*A {recipe}\b[^*]*\*\* \(([0-9a-f]+)\)", text("CONTRIBUTING.md"), re.M)[1])
 
 
 def recipe_files(recipe):
@@ -298,11 +304,21 @@ def recipe_files(recipe):
     return None if lines is None else len(lines)
 
 
-def lines_before_recipes(names):
-    """Of the product, without what the commits of the recipes added: features of their own. None as above."""
-    recipes = [recipe_lines(recipe) for recipe in RECIPES]
-    added = None if None in recipes else sum(came - went for lines in recipes for name, came, went in lines if name in names)
-    return None if added is None else sum(len(text(name).splitlines()) for name in names) - added
+def added(commits):
+    """Lines of the product, of (file, came, went) of commits; None where one is not known."""
+    return None if None in commits else sum(came - went for lines in commits for name, came, went in lines
+                                            if name.split("/")[0] in PRODUCT and name.endswith(CODE)
+                                            and not name.startswith("bench/peers/"))
+
+
+def feature_lines(feature):
+    return added([commit_lines(commit) for commit in FEATURES[feature][0].split()])
+
+
+def lines_before_features(names):
+    """Of the product, without what the commits of recipes and features added. None as above."""
+    counts = [added([recipe_lines(recipe) for recipe in RECIPES]), *map(feature_lines, FEATURES)]
+    return None if None in counts else sum(len(text(name).splitlines()) for name in names) - sum(counts)
 
 
 def survivors():
@@ -340,7 +356,9 @@ def measures(build, share):
 
     def counted(what, places, most):
         return what, len(places), most, places
-    yield "lines of the product, peers and the recipes' features apart", lines_before_recipes(names), 93_719 - 6_000, []
+    yield "lines of the product, peers and later features apart", lines_before_features(names), 93_719 - 6_000, []
+    for feature, (_, most) in FEATURES.items():
+        yield f"lines of the feature {feature}", feature_lines(feature), most, []
     yield "lines of texts with places, beside them", sum(len(text(name).splitlines()) for name in texts()), 1_800, []
     yield "types", sum(len(TYPE.findall(text(name))) for name in cpp), 710, []
     yield counted("problem types", problem_types(codes), 3)
