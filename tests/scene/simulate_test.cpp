@@ -339,27 +339,28 @@ TEST_CASE(
 // A wall of bricks, each of a mass of 1, and a block of `mass` thrown at it at 20 m/s.
 template <class Kind>
 SceneIn<Kind, double> HitWall(int courses, int length, double mass) {
-  const bool is_flat = Kind::kDimension == 2;
-  const auto triple = [is_flat](double x, double depth, double z) {
-    return is_flat ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, depth, z);
+  const auto point = [](double x, double depth, double z) {
+    return Kind::kDimension == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, depth, z);
   };
-  std::string bodies = fmt::format(R"({{"fixed": true, "position": {}, "shapes": [{{"box": {}}}]}})",
-                                   triple(0, 0, -1), triple(100, 10, 2));
+  std::string bodies =
+      fmt::format(R"({{"name": "0", "fixed": true, "position": {}, "shapes": [{{"box": {}}}]}})",
+                  point(0, 0, -1), point(100, 10, 2));
+  int count = 0;
   const auto add = [&](double x, double z, double m, const std::string& size, const std::string& velocity) {
-    bodies += fmt::format(R"(, {{"mass": {}, "position": {}, "velocity": {}, "shapes": [{{"box": {}}}]}})", m,
-                          triple(x, 0, z), velocity, size);
+    bodies += fmt::format(
+        R"(, {{"name": "{}", "mass": {}, "position": {}, "velocity": {}, "shapes": [{{"box": {}}}]}})", ++count,
+        m, point(x, 0, z), velocity, size);
   };
   for (int course = 0; course < courses; ++course) {
     for (int k = 0; k < length - course % 2; ++k)
-      add(k + course % 2 * 0.5, 0.25 + 0.5 * course, 1, triple(0.96875, 0.5, 0.5), triple(0, 0, 0));
+      add(k + course % 2 * 0.5, 0.25 + 0.5 * course, 1, point(0.96875, 0.5, 0.5), point(0, 0, 0));
   }
-  add(-2, 0.25 * courses, mass, triple(1, 1, 1), triple(20, 0, 0));
-  return Round(ParseScene<Kind>(
-                   fmt::format(R"({{"format": "stiction-scene", "version": 1, "dimension": {}, "gravity": {},
-                                   "mu": "1/2", "bodies": [{}]}})",
-                               Kind::kDimension, triple(0, 0, -10), bodies),
-                   "wall")
-                   .scene);
+  add(-2, 0.25 * courses, mass, point(1, 1, 1), point(20, 0, 0));
+  const std::string text = fmt::format(
+      R"({{"format": "stiction-scene", "version": 1, "name": "wall", "dimension": {}, "gravity": {}, "mu": "1/2",
+           "bodies": [{}]}})",
+      Kind::kDimension, point(0, 0, -10), bodies);
+  return Round(ParseScene<Kind>(text, "wall").scene);
 }
 
 TEMPLATE_TEST_CASE("simulate: a block thrown at a wall breaks it, and every problem is solved", "", Plane,
