@@ -198,7 +198,8 @@ TEST_CASE("simulate: without friction a problem has one answer, in the plane, in
   }
 }
 
-TEST_CASE("simulate: the wedge that jams has no answer, neither near nor far; the step is taken all the same") {
+TEST_CASE(
+    "simulate: the wedge that jams has no answer, neither near nor far, and the step is taken all the same") {
   Simulation simulation(SceneInDoubles("scripted-wedge-jams"));
   simulation.Step();
   REQUIRE(!simulation.undecided().empty());

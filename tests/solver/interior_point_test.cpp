@@ -94,7 +94,7 @@ TEST_CASE("interior point: no forces where they are a solution, and nothing is f
   CHECK(method.f().isZero(0));
 }
 
-TEST_CASE("interior point: without a solution it is undecided, and says why; stopped, too") {
+TEST_CASE("interior point: without a solution it is undecided, and says why, as it does when it is stopped") {
   FactoredProblem<double> problem =
       InFactors(2, {{ContactKind::kFrictionless, 0.0, {0, 0}}}, Eigen::MatrixXd::Zero(1, 1),
                 Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, -1));
