@@ -34,6 +34,7 @@ class BestForces {
   }
   void Forget() {
     error_ = std::numeric_limits<double>::infinity();
+    is_rounding_ = false;
     f_.resize(0);
     a_.resize(0);
   }
@@ -46,6 +47,7 @@ class BestForces {
     const double error = offers_ < kOften ? Measured(*problem_, f) : Measured(entries_, f);
     if (error < error_ || f_.size() != f.size()) {
       error_ = error;
+      is_rounding_ = error <= 2 * rounding_;
       f_ = f;
       a_ = now_;
     }
@@ -53,26 +55,32 @@ class BestForces {
   }
 
   double error() const { return error_; }
+  // Whether the best has no error but the rounding of its accelerations: no other forces are better.
+  bool IsRounding() const { return is_rounding_; }
   bool IsGood() const { return error_ <= ResidualOf<double>(*request_); }
   const Vector& f() const { return f_; }
   const Vector& a() const { return a_; }
 
  private:
-  static constexpr int kOften = 4;
+  static constexpr int kOften = 6;
 
   template <class AnyForm>
   double Measured(const AnyForm& problem, const Vector& f) {
+    rounding_ = 0;
     if (measure_ == Measure::kLenient)
       return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, told_, units_).error;
     const Errors<double> errors = MeasureErrors(problem, FrictionLaw::kCoulomb, f, told_, meter_,
                                                 WorkingTheta<double>(request_->residual, problem.rows()));
-    return errors.Largest() + std::numeric_limits<double>::epsilon() * errors.amplification;
+    rounding_ = std::numeric_limits<double>::epsilon() * errors.amplification;
+    return errors.Largest() + rounding_;
   }
 
   const Problem* problem_ = nullptr;
   const Request* request_ = nullptr;
   Measure measure_ = Measure::kStrict;
   double error_ = std::numeric_limits<double>::infinity();
+  double rounding_ = 0;  // of what was measured last
+  bool is_rounding_ = false;
   Vector f_, a_, now_, told_;
   int offers_ = 0;
   SparseContactProblem<double> entries_;

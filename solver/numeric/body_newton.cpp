@@ -22,6 +22,7 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   int idle = 0, failures = 0;
   while (!(best_.error() <= aim)) {
     const bool is_good = best_.IsGood();
+    if (is_good && best_.IsRounding()) break;
     if (request_.limits.Stopped() && !is_good) {
       verdict_.reason = kStopped;
       return verdict_;
