@@ -15,7 +15,7 @@ constexpr int kRefinements = 2;  // of each solution of K x = y
 constexpr int kPatience = 6;     // attempts after which what is loose has to do
 constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
 constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolishFailures = 1,
-              kPolishPoints = 6;
+              kPolishPoints = 12;
 
 }  // namespace
 
@@ -203,7 +203,7 @@ void InteriorPoint::Finish(bool is_last) {
   if (best_.f().size() != problem_->rows()) return;
   const bool polishes = best_.IsGood();
   newton_.request() = request_;
-  newton_.measure = measure;
+  newton_.measure = polishes ? BestForces::Measure::kStrict : measure;
   newton_.steps = kFinishSteps;
   newton_.warm_eps = polishes ? kPolishEps : kFinishEps;
   newton_.failures = polishes ? kPolishFailures : is_last ? kLastFailures : kFinishFailures;
@@ -211,6 +211,7 @@ void InteriorPoint::Finish(bool is_last) {
   const Vector start = best_.f();
   const RunEnd<> end = newton_.Run(*problem_, &start);
   verdict_.statistics[Counter::kFactorizations] += end.statistics[Counter::kFactorizations];
+  if (polishes && end.outcome == Outcome::kSolved) best_.Forget();  // strictly right is better than leniently
   best_.Offer(newton_.f());
 }
 
