@@ -86,7 +86,7 @@ void InteriorPoint::ForEachPair(Visit visit) {
   }
 }
 
-// exp of a number that is nearly normal.
+// A factor near 1, as often below as above. Sums and quotients alone, which are the same on every machine.
 double InteriorPoint::Chance() {
   if (!(attempt_.spread > 0)) return 1;
   double sum = -6;
@@ -94,7 +94,8 @@ double InteriorPoint::Chance() {
     seed_ = seed_ * 6364136223846793005u + 1442695040888963407u;
     sum += std::ldexp(static_cast<double>(seed_ >> 11), -53);
   }
-  return std::exp(attempt_.spread * sum);
+  const double factor = 1 + attempt_.spread * std::abs(sum);
+  return sum < 0 ? 1 / factor : factor;
 }
 
 void InteriorPoint::Begin(const Attempt& attempt) {
@@ -185,7 +186,8 @@ void InteriorPoint::Follow() {
       product += (pair.x + ahead * pair.dx) * (pair.y + ahead * pair.dy) / pair.weight;
     });
     product /= std::max(1, pairs_);
-    double sigma = std::max(std::pow(std::clamp(product / tau, 0.0, 1.0), 3), 1e-3);
+    const double share = std::clamp(product / tau, 0.0, 1.0);
+    double sigma = std::max(share * share * share, 1e-3);
     if (ahead < 0.1) sigma = std::max(sigma, 0.3);
     if (weak > 2) sigma = std::max(sigma, 0.5);
     Aim(sigma, tau, ahead > 0.1);
