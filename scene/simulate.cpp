@@ -55,7 +55,7 @@ constexpr int FactorRows(Level level, int dimension) {
 }
 
 // Up to which it may be worth while to form A: polygons and complete driving come last, and grow fast.
-constexpr int DenseRows(int dimension) { return dimension == 2 ? 300 : 150; }
+constexpr int DenseRows(int dimension) { return dimension == 2 ? 300 : 100; }
 
 // In factors, from the start if there is one, then without; then with A. A small island the other way round:
 // in factors what has no answer, or a loose one.

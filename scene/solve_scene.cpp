@@ -86,6 +86,16 @@ bool HasFriction(const Problem& problem) {
                      [](const auto& contact) { return contact.HasFrictionRows(); });
 }
 
+// Whether contacts with a force have no tangential acceleration to speak of.
+bool NothingSlips(const FactoredProblem<double>& problem, const Eigen::VectorXd& f, const Eigen::VectorXd& a) {
+  const double slow = kLooseResidual * problem.b.cwiseAbs().maxCoeff();
+  bool slips = false;
+  ForEachContact(problem, [&](int, int row, int rows) {
+    if (f[row] > 0) slips |= TangentLength(a, row, rows) > slow;
+  });
+  return !slips;
+}
+
 // Whether f = 0 is a solution.
 template <class Problem>
 bool IsAtRestWithoutForces(const Problem& problem) {
@@ -213,7 +223,8 @@ SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, 
   return answer;
 }
 
-// By the interior point, which Newton's method ends.
+// By the interior point, which Newton's method ends. Where nothing slips and that is not strictly right,
+// Newton's method from f = 0 mostly is: bodies at rest stay where they are.
 void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, SceneAnswer& answer) {
   interior_.measure = BestForces::Measure::kLenient;
   interior_.loose = kLooseResidual;
@@ -223,6 +234,13 @@ void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, S
   const double error = interior_.error(), pressing = Pressing(problem, answer.f);
   if (!(error <= kLooseResidual) || pressing > kMostPressing || error * pressing > kMostMissed) return;
   answer.outcome = Outcome::kSolved;
+  if (!interior_.IsStrict() && NothingSlips(problem, answer.f, interior_.a())) {
+    bodies_.failures = kFailures;
+    if (bodies_.Run(problem).outcome == Outcome::kSolved) {
+      answer.f = bodies_.f();
+      return;
+    }
+  }
   answer.counters[Counter::kLoose] += error > kWholeResidual;
 }
 

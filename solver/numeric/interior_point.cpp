@@ -50,6 +50,7 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
   }
   best_.Start(problem, request_, measure);
   best_.Offer(Vector::Zero(problem.rows()));
+  is_strict_ = best_.IsGood();
   if (!best_.IsGood()) best_.Forget();  // its error is no measure of others
   const double residual = ResidualOf<double>(request_);
   const int most = MostAttempts();
@@ -213,7 +214,8 @@ void InteriorPoint::Finish(bool is_last) {
   const Vector start = best_.f();
   const RunEnd<> end = newton_.Run(*problem_, &start);
   verdict_.statistics[Counter::kFactorizations] += end.statistics[Counter::kFactorizations];
-  if (polishes && end.outcome == Outcome::kSolved) best_.Forget();  // strictly right is better than leniently
+  is_strict_ = polishes && end.outcome == Outcome::kSolved;
+  if (is_strict_) best_.Forget();  // better than leniently right
   best_.Offer(newton_.f());
 }
 

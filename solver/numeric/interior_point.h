@@ -69,6 +69,8 @@ class InteriorPoint {
   const Vector& f() const { return best_.f(); }
   const Vector& a() const { return best_.a(); }
   double error() const { return best_.error(); }
+  // Whether they are solved by the strict measure, too.
+  bool IsStrict() const { return is_strict_; }
 
  private:
   // Numbers whose product goes to tau times the weight; their changes, those of the predictor, and what
@@ -121,6 +123,7 @@ class InteriorPoint {
   std::uint64_t seed_ = 1;
   double most_b_ = 0;  // the largest abs(b_i) of any row, each as if its A_ii were 1
   int pairs_ = 0;
+  bool is_strict_ = false;
   std::vector<State> states_;            // by contact
   std::vector<BodyMatrix::Block> D_;     // by contact
   Vector v_, f_, dv_, df_, unbalanced_;  // the last: M (v - w) - J' f

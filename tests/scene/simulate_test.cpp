@@ -364,6 +364,29 @@ SceneIn<Kind, double> HitWall(int courses, int length, double mass) {
   return Round(ParseScene<Kind>(text, "wall").scene);
 }
 
+TEMPLATE_TEST_CASE("simulate: ten boxes of masses of 1 and 10,000 stand on each other", "", Plane, Space) {
+  const bool is_flat = TestType::kDimension == 2;
+  std::string bodies =
+      fmt::format(R"({{"name": "floor", "fixed": true, "position": {}, "shapes": [{{"box": {}}}]}})",
+                  is_flat ? "[0, -1]" : "[0, 0, -1]", is_flat ? "[200, 2]" : "[200, 200, 2]");
+  for (int k = 0; k < 10; ++k)
+    bodies +=
+        fmt::format(R"(, {{"name": "{}", "mass": {}, "position": [{}{}.5], "shapes": [{{"box": {}}}]}})", k,
+                    k % 2 == 0 ? 1 : 10000, is_flat ? "0, " : "0, 0, ", k, is_flat ? "[1, 1]" : "[1, 1, 1]");
+  const auto scene = Round(
+      ParseScene<TestType>(fmt::format(R"({{"format": "stiction-scene", "version": 1, "name": "stack",
+      "dimension": {}, "gravity": {}, "mu": "1/2", "bodies": [{}]}})",
+                                       TestType::kDimension, is_flat ? "[0, -10]" : "[0, 0, -10]", bodies),
+                           "stack")
+          .scene);
+  SimulationIn<TestType> simulation(scene, 1.0 / 240);
+  constexpr int kSteps = 60;
+  for (int k = 0; k < kSteps; ++k) simulation.Step();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    CHECK((simulation.scene().bodies[i].position - scene.bodies[i].position).norm() < 1e-10);
+  CHECK(simulation.statistics().warm >= kSteps - 3);
+}
+
 TEMPLATE_TEST_CASE("simulate: a block thrown at a wall breaks it, and every problem is solved", "", Plane,
                    Space) {
   for (const double mass : {0.5, 10.0, 300.0}) {
