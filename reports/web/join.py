@@ -24,6 +24,16 @@ def fail(file, text, at, why):
     sys.exit(f"{file}:{text.count(chr(10), 0, at) + 1}: {why}")
 
 
+def refuse_stray(file, text, names, all):
+    """What a module imports as `* as all` is all.name there; what it declares, or takes, is its own."""
+    code = re.sub(r"'(?:[^'\\\n]|\\.)*'", "''", re.sub(r"//.*", "", text))
+    for name in filter(str.isidentifier, names):
+        used = re.search(rf"(?<![\w.$]){name}\s*\(|\.\.\.{name}\b", code)
+        if used and not re.search(rf"\b(?:const|let|var|function|class)\s+{name}\b|\b{name}\s*=>|"
+                                  rf"[\[{{(,]\s*{name}\s*(?:[,=\]}}]|\)[^;]*?=)", code):
+            fail(file, code, used.start(), f"{name} is {all}.{name} here")
+
+
 class Joined:
     """A script or a style sheet as one `text`; `inputs`: the files of it."""
 
@@ -70,6 +80,8 @@ class Joined:
             for name in re.findall(r"(\w+)(?: as \w+)?\s*[,}]", found["names"] or ""):
                 if name not in self.exports[other]:
                     fail(file, text, found.start(), f"{found['path']} does not export {name}")
+            if found["all"]:
+                refuse_stray(file, text, self.exports[other], found["all"])
             return f"const {found['all'] or found['names'].replace(' as ', ': ')} = {scope};"
 
         def give(found):

@@ -83,6 +83,11 @@ class Joined(cli.TestCase):
         done = subprocess.run(["node", "--input-type=module", "-e", script.text], capture_output=True, text=True)
         self.assertEqual(done.stdout, "100 2 8 12 5\n", done.stderr)
 
+    def test_a_name_of_its_own_is_none_of_what_it_imports(self):
+        main = self.files(main="import * as all from './other.js';\nconst f = (end) => [...end, all.end];\n",
+                          other="export const end = 1;\n")
+        self.assertIn("[...end, all.end]", join.Joined(main).text)
+
     def test_what_it_would_join_wrongly_is_refused_with_file_and_line(self):
         ends = "export const end = 1;\n"
         for main, other, line in (
@@ -91,6 +96,7 @@ class Joined(cli.TestCase):
                 ("import {end} from './nowhere.js';\n", ends, "main.js:1: found no ./nowhere.js"),
                 ("import {end} from './other.js';\n", "// One.\nexport let end = 1;\n", "other.js:2: expected a form of export"),
                 ("import end from './other.js';\n", ends, "main.js:1: expected a form of import"),
+                ("import * as all from './other.js';\n\nconst x = {...end};\n", ends, "main.js:3: end is all.end here"),
                 ("const page = '</script>';\n", ends, "main.js: found </script")):
             with self.subTest(line), self.assertRaises(SystemExit) as refused:
                 join.Joined(self.files(main=main, other=other))

@@ -140,7 +140,7 @@ function pivotingPlot(generator, rows, whats, {width, values, most}) {
       generator,
       p.drawn(
           {
-            ...histogram,
+            ...p.histogram,
             width,
             x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
             y: {domain: [0, most], label: 'share of runs, %'},
@@ -178,7 +178,7 @@ function withinPlot(rows, values, width) {
       'Steps of a run, at most',
       p.drawn(
           {
-            ...histogram,
+            ...p.histogram,
             width,
             height: 250,
             x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
@@ -214,7 +214,7 @@ function sharedPlot(rows, values, width) {
       'Runs with',
       p.drawn(
           {
-            ...histogram,
+            ...p.histogram,
             width,
             height: 250,
             x: {type: 'point', domain: values, label: 'number of contacts', padding: 0.6},
@@ -294,7 +294,7 @@ function rungsPlot(family, rows, {width, domain, most}) {
       family,
       p.drawn(
           {
-            ...histogram,
+            ...p.histogram,
             width,
             height: 234,
             x: {type: 'log', domain, label: 'microseconds a problem'},
