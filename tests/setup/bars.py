@@ -47,7 +47,8 @@ RECIPES = {"method": 4, "generator": 3, "claim": 5, "verb": 3, "field": 3}  # fi
 FEATURES = {  # that came later: their commits, and the most lines that they may have cost
     "impacts": ("eaeb8eaf 38bca15b f30ea018 c3ed82e3 27b1a8ce 590fb9bf 29f85f8d 816e72b3 ed028206 da2bdbb1 6e914fae "
                 "e700cec5", 800),
-    "rest without rationals": ("4845d61a", 60)}
+    "rest without rationals": ("4845d61a", 60),
+    "names in pages, checked": ("c67bc00d", 20)}
 JSON_HEADERS = ("nlohmann/json.hpp",)
 GENERATED = re.compile(r"reports/(examples|web/dist|web/solver)/|.*\.(svg|png|pdf|wasm)(\.gz)?$")
 PROOFS = ("certify/condition_number.md", "certify/coq/README.md", "certify/existence.md", "certify/related_work.md",
