@@ -177,7 +177,7 @@ test('records are drawn beside random problems, each once where nothing was reac
 test('a report of benchmarks alone says and draws what was measured', async () => {
   await opened('measured', async page => {
     assert.deepEqual(
-        await page.$$eval('figure[data-figure]', all => all.map(node => node.dataset.figure)), ['rungs', 'frontiers']);
+        await page.$$eval('figure[data-figure]', all => all.map(node => node.dataset.figure)), ['frontiers', 'rungs']);
     assert.equal((await titles(page, 'rungs')).length, 2);
     assert.doesNotMatch(await page.innerText('body'), /NaN|undefined|random friction problems for inputs|STORE/);
     await assertHeadings(page);
