@@ -17,8 +17,8 @@ namespace stiction {
 namespace {
 
 constexpr int kHoldRounds = 8;
-constexpr std::size_t kNewShare =
-    20;                            // of contacts that may be new where forces of the step before are a start
+// One contact in so many may be new where forces of the step before are a start.
+constexpr std::size_t kNewShare = 20;
 constexpr double kDeep = 1e-3;     // of the scene's size; where it has no gap
 constexpr double kSlow = 1e-3;     // of the scene's size a second; at rest where there is no gravity
 constexpr int kParallelRows = 20;  // of the largest island; below, threads cost more than they save

@@ -31,8 +31,7 @@ constexpr double kNoise = 1e-11;
 // their drift.
 constexpr double kNoiseOfRepeated = 1e-7;
 
-constexpr int kFailures =
-    1;  // of Newton's method from a start: where it fails once more, contacts have changed
+constexpr int kFailures = 1;   // of Newton's method: where it fails once more, contacts have changed
 constexpr double kAim = 1e-9;  // lenient error at which it ends
 
 template <class Problem>
