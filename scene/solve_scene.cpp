@@ -49,10 +49,10 @@ Eigen::VectorXd AccelerationsOf(const FactoredProblem<double>& problem, const Ei
 // The largest lenient error of forces.
 template <class Problem>
 double ErrorOf(const Problem& problem, const typename Problem::Vector& f, double share = kNoise) {
-  Eigen::VectorXd a = AccelerationsOf(problem, f);
-  const double noise = NoiseOf(problem, share);
-  for (double& x : a) x = std::abs(x) <= noise ? 0 : x;
-  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, a).error;
+  LenientUnits<double> units;
+  return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, AccelerationsOf(problem, f), units,
+                          NoiseOf(problem, share))
+      .error;
 }
 
 constexpr double kMostPressing = 1e7;  // of forces that are no sign that there is no solution

@@ -42,7 +42,6 @@ class BestForces {
   // The error of f; what is better than all before is kept, and so is the first.
   double Offer(const Vector& f) {
     now_ = problem_->A.J() * (problem_->w + problem_->Responses(f)) + problem_->c;
-    told_ = now_.unaryExpr([this](double x) { return std::abs(x) <= request_->noise ? 0 : x; });
     if (++offers_ == kOften) entries_ = EntriesOf(*problem_);
     const double error = offers_ < kOften ? Measured(*problem_, f) : Measured(entries_, f);
     if (error < error_ || f_.size() != f.size()) {
@@ -68,7 +67,8 @@ class BestForces {
   double Measured(const AnyForm& problem, const Vector& f) {
     rounding_ = 0;
     if (measure_ == Measure::kLenient)
-      return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, told_, units_).error;
+      return MeasureLeniently(problem, FrictionLaw::kCoulomb, f, now_, units_, request_->noise).error;
+    told_ = now_.unaryExpr([this](double x) { return std::abs(x) <= request_->noise ? 0 : x; });
     const Errors<double> errors = MeasureErrors(problem, FrictionLaw::kCoulomb, f, told_, meter_,
                                                 WorkingTheta<double>(request_->residual, problem.rows()));
     rounding_ = std::numeric_limits<double>::epsilon() * errors.amplification;

@@ -14,18 +14,19 @@ constexpr double kLeastTau = 1e-28;
 constexpr int kRefinements = 2;  // of each solution of K x = y
 constexpr int kPatience = 6;     // attempts after which what is loose has to do
 constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
+constexpr int kFactorsOfCurve = 800;  // at most
 constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolishFailures = 1,
               kPolishPoints = 12;
 
 }  // namespace
 
-// The first ends nearly all, each of the others about half of the rest. After the last the second follows
-// again, with other weights.
+// The first ends nearly all, each of the others about half of the rest. After the last those but the first few
+// follow again, with other weights.
 const std::array<InteriorPoint::Attempt, InteriorPoint::kTurnCount> InteriorPoint::kTurns = {{
     {},
     {.delta = 1e-6, .first = 0.1, .spread = 0.5},
     {.delta = 1e-7, .kappa = 1},
-    {.first = 0.1, .spread = 0.5, .kappa = 10},
+    {.first = 0.1, .spread = 0.5, .kappa = 10, .curve = true},
     {.step = 0.7, .delta = 1e-7, .kappa = 1},
     {.delta = 1e-7, .first = 10, .spread = 0.5, .kappa = 10},
     {.delta = 1e-7, .spread = 0.5},
@@ -57,8 +58,8 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
   for (int i = 0; i < most && !request_.limits.Stopped(); ++i) {
     if (best_.error() <= (i < kPatience ? residual : std::max(residual, loose))) break;
     ++verdict_.statistics[Counter::kStarts];
-    Begin(kTurns[i < kTurnCount ? i : 1 + (i - 1) % (kTurnCount - 1)]);
-    Follow();
+    Begin(kTurns[i < kTurnCount ? i : kFirstTurns + (i - kTurnCount) % (kTurnCount - kFirstTurns)]);
+    attempt_.curve ? FollowCurve() : Follow();
     Finish(i + 1 == most);
   }
   if (best_.f().size() != problem.rows()) best_.Offer(f_);
@@ -101,6 +102,7 @@ double InteriorPoint::Chance() {
 
 void InteriorPoint::Begin(const Attempt& attempt) {
   attempt_ = attempt;
+  end_.resize(0);
   v_ = problem_->w;
   f_.setZero(problem_->rows());
   df_.setZero(problem_->rows());
@@ -154,6 +156,7 @@ void InteriorPoint::Offer() {
     ProjectOnLaw(problem_->contacts[c], piece.rows, p.data(), &snapped[piece.row], slope);
   }
   best_.Offer(snapped);
+  end_ = snapped;
 }
 
 // The path of the attempt, to its end.
@@ -200,8 +203,8 @@ void InteriorPoint::Follow() {
   }
 }
 
-// From the best forces by Newton's method, which is exact to rounding where it settles. Another attempt costs
-// less than its patience, but for the last.
+// From the end of the path, or from the best forces where they are a solution, by Newton's method, which is
+// exact to rounding where it settles. Another attempt costs less than its patience, but for the last.
 void InteriorPoint::Finish(bool is_last) {
   if (best_.f().size() != problem_->rows()) return;
   const bool polishes = best_.IsGood();
@@ -211,7 +214,7 @@ void InteriorPoint::Finish(bool is_last) {
   newton_.warm_eps = polishes ? kPolishEps : kFinishEps;
   newton_.failures = polishes ? kPolishFailures : is_last ? kLastFailures : kFinishFailures;
   newton_.points = polishes ? kPolishPoints : BodyNewton::kPoints;
-  const Vector start = best_.f();
+  const Vector start = polishes || end_.size() == 0 ? best_.f() : end_;
   const RunEnd<> end = newton_.Run(*problem_, &start);
   verdict_.statistics[Counter::kFactorizations] += end.statistics[Counter::kFactorizations];
   is_strict_ = polishes && end.outcome == Outcome::kSolved;
@@ -328,14 +331,36 @@ bool InteriorPoint::SolveStep() {
   return dv_.allFinite() && df_.allFinite();
 }
 
-// The part of the step at which the first number of a pair is zero.
+// The part of the step at which the first number of a pair is zero, or friction too far beyond its limit.
 double InteriorPoint::Longest() {
   double longest = std::numeric_limits<double>::max();
   ForEachPair([&longest](const Pair& pair) {
     if (pair.dx < 0) longest = std::min(longest, -pair.x / pair.dx);
     if (pair.dy < 0) longest = std::min(longest, -pair.y / pair.dy);
   });
+  for (std::size_t c = 0; c < states_.size(); ++c) longest = std::min(longest, LongestInside(c));
   return longest;
+}
+
+// Where abs(fF) is some times mu fN, or as many times as far beyond as before: there g, and with it s, is no
+// longer what the step takes it for.
+double InteriorPoint::LongestInside(std::size_t c) const {
+  constexpr double kBeyond = 2;
+  const State& state = states_[c];
+  if (state.kind != Kind::kStatic) return std::numeric_limits<double>::max();
+  const double limit = kBeyond * std::max(1.0, state.length) * problem_->contacts[c].mu;
+  const auto& piece = matrix_.pieces()[c];
+  const double normal = limit * f_[piece.row], change = limit * df_[piece.row];
+  // x t^2 + 2 y t + z = 0, z < 0
+  double x = -change * change, y = -normal * change, z = -normal * normal;
+  for (int i = piece.row + 1; i < piece.row + piece.rows; ++i) {
+    x += df_[i] * df_[i];
+    y += f_[i] * df_[i];
+    z += f_[i] * f_[i];
+  }
+  const double root = y * y - x * z;
+  const double sum = y + std::sqrt(std::max(0.0, root));
+  return root >= 0 && sum > 0 ? -z / sum : std::numeric_limits<double>::max();
 }
 
 void InteriorPoint::Move(double length) {
@@ -345,6 +370,11 @@ void InteriorPoint::Move(double length) {
     pair.x += length * pair.dx;
     pair.y += length * pair.dy;
   });
+  TakeForces();
+}
+
+// Of the pairs, and with them those of sliding contacts.
+void InteriorPoint::TakeForces() {
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const State& state = states_[c];
     const auto& contact = problem_->contacts[c];
@@ -353,6 +383,130 @@ void InteriorPoint::Move(double length) {
     for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
       f_[piece.row + i] = -contact.mu * contact.slip[i - 1] * state.normal.x;
   }
+}
+
+// ---- The curve -------------------------------------------------------------------------------
+
+double InteriorPoint::Way::Dot(const Way& other) const {
+  double sum = tau * other.tau;
+  for (std::size_t k = 0; k < pairs.size(); ++k) sum += pairs[k] * other.pairs[k];
+  return sum;
+}
+
+double InteriorPoint::Way::Largest() const {
+  double largest = std::abs(tau);
+  for (const double x : pairs) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+void InteriorPoint::Way::Add(double length, const Way& other) {
+  v += length * other.v;
+  f += length * other.f;
+  for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k] += length * other.pairs[k];
+  tau += length * other.tau;
+}
+
+auto InteriorPoint::WayOfStep() -> Way {
+  Way way{dv_, df_, {}, 0};
+  ForEachPair([&way](const Pair& pair) {
+    way.pairs.push_back(pair.dx / pair.x);
+    way.pairs.push_back(pair.dy / pair.y);
+  });
+  return way;
+}
+
+void InteriorPoint::MoveAlong(const Way& way, double length) {
+  v_ += length * way.v;
+  f_ += length * way.f;
+  auto part = way.pairs.begin();
+  ForEachPair([&part, length](Pair& pair) {
+    pair.x *= 1 + length * *part++;
+    pair.y *= 1 + length * *part++;
+  });
+  TakeForces();
+}
+
+// From the beginning of the attempt to the end of the curve, or as far as it can be followed.
+void InteriorPoint::FollowCurve() {
+  constexpr double kFirst = 0.3, kLongest = 0.8, kShortest = 1e-3;
+  double tau = MeanProduct(), length = kFirst;
+  Way tangent;
+  for (int left = kFactorsOfCurve; left > 0 && tau >= kLeastTau && !request_.limits.Stopped();) {
+    const Vector v = v_, f = f_;
+    const std::vector<State> states = states_;
+    const double tau_before = tau;
+    const bool is_first = tangent.pairs.empty();
+    if (!is_first) {
+      const double part = length / tangent.Largest();
+      MoveAlong(tangent, part);
+      tau *= 1 + part * tangent.tau;
+    }
+    int corrections = 0;
+    double cosine = 1;
+    if (!ReturnToCurve(tangent, tau, left, corrections, cosine)) {
+      v_ = v;
+      f_ = f;
+      states_ = states;
+      tau = tau_before;
+      if (is_first || length < kShortest) return;
+      length /= 3;
+      continue;
+    }
+    if (corrections <= 3 && cosine > 0.7) {
+      length = std::min(kLongest, length * 1.6);
+    } else if (corrections > 5 || cosine < 0.3) {
+      length /= 1.5;
+    }
+    if (!(tau < kJudgeBelow)) continue;
+    Offer();
+    if (best_.error() <= aim) return;
+  }
+}
+
+// Across the tangent, or at this tau where there is none yet. The tangent is that of the new point then, in the
+// direction of the old one, at first to smaller tau; `cosine` is that of the angle between the two.
+bool InteriorPoint::ReturnToCurve(Way& tangent, double& tau, int& left, int& corrections, double& cosine) {
+  constexpr double kClose = 0.1, kFar = 2, kPart = 0.9, kLeastDelta = 1e-13;
+  constexpr int kFirstCorrections = 25, kCorrections = 8;
+  const bool is_first = tangent.pairs.empty();
+  const double delta = attempt_.delta;
+  double before = std::numeric_limits<double>::infinity();
+  for (corrections = 1; corrections <= (is_first ? kFirstCorrections : kCorrections); ++corrections, --left) {
+    attempt_.delta = std::clamp(tau, kLeastDelta, delta);
+    TakeResiduals();
+    attempt_.delta = delta;
+    ++verdict_.statistics[Counter::kIterations];
+    ++verdict_.statistics[Counter::kFactorizations];
+    if (!matrix_.Factor(D_, false)) return false;
+    Aim(1, tau, false);
+    if (!SolveStep()) return false;
+    Way correction = WayOfStep();
+    for (State& state : states_) {
+      state.miss = state.slack_miss = 0;
+      state.slip_miss = {};
+    }
+    unbalanced_.setZero();
+    ForEachPair([tau](Pair& pair) { pair.aim = tau * pair.weight; });
+    if (!SolveStep()) return false;
+    Way along = WayOfStep();
+    along.tau = 1;
+    if (!is_first) correction.Add(-tangent.Dot(correction) / tangent.Dot(along), along);
+    const double size = correction.Largest();
+    if (!std::isfinite(size)) return false;
+    if (!is_first && (size > 3 * before || (corrections > 1 && size > kFar))) return false;
+    before = size;
+    const double part = std::min(1.0, kPart / size);
+    MoveAlong(correction, part);
+    tau *= 1 + part * correction.tau;
+    if (size >= kClose) continue;
+    const double norm = std::sqrt(along.Dot(along)), dot = is_first ? -norm : tangent.Dot(along);
+    cosine = std::abs(dot) / norm;
+    tangent = Way{Vector::Zero(v_.size()), Vector::Zero(f_.size()), std::vector<double>(along.pairs.size()), 0};
+    tangent.Add((dot < 0 ? -1 : 1) / norm, along);
+    --left;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace stiction

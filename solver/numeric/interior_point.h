@@ -18,12 +18,14 @@
 //            dx, which is gone when dx is; and the change of y comes from the row of its product, not from du:
 //            so y of a contact that hardly feels an impact stays right in its own unit.
 //   snap     each contact put exactly into the mode that f - a / A_cc asks for; this is what is judged. tau
-//   goes
-//            far below rounding.
-//   finish   Newton's method from the best forces: to rounding where they are a solution; where they are none
-//   it
-//            mostly finds one.
+//            goes far below rounding.
+//   finish   Newton's method from where the path ends: to rounding where that is a solution; where it is none
+//            Newton's method mostly finds one.
 //   attempts other weights, starts and deltas, where neither ends in a solution. No proof of an end.
+//   curve    some paths turn back: past a fold tau has to rise before it falls, and no step to a smaller tau
+//            gets there. So one attempt goes by the length of the curve of all (v, f, pairs, tau), along its
+//            tangent, and returns to it across the tangent by Newton's method (E. L. Allgower, K. Georg,
+//            Numerical Continuation Methods, 1990). Lengths are relative changes of the pairs and of tau.
 //
 // Called solved are forces whose errors (problem/errors.h) are at most `residual`; whatever else is undecided,
 // and the best forces are returned. S. J. Wright, Primal-Dual Interior-Point Methods, 1997, has the frame of
@@ -96,13 +98,27 @@ class InteriorPoint {
     double first = 1;     // scale of the start
     double spread = 0;    // scatter of weights
     double kappa = 30;    // weight of slip beside normals
+    bool curve = false;   // by its length
   };
-  static constexpr int kTurnCount = 12;
+  // A way from where the path is: changes of v and f; of the numbers of the pairs, x and y in turn, and of tau,
+  // as parts of themselves.
+  struct Way {
+    Vector v, f;
+    std::vector<double> pairs;
+    double tau = 0;
+
+    double Dot(const Way& other) const;
+    double Largest() const;
+    void Add(double length, const Way& other);
+  };
+  static constexpr int kTurnCount = 12, kFirstTurns = 4;
   static const std::array<Attempt, kTurnCount> kTurns;
 
   int MostAttempts() const;
   void Begin(const Attempt& attempt);
   void Follow();
+  void FollowCurve();
+  bool ReturnToCurve(Way& tangent, double& tau, int& left, int& corrections, double& cosine);
   void Finish(bool is_last);
   template <class Visit>
   void ForEachPair(Visit visit);
@@ -112,7 +128,11 @@ class InteriorPoint {
   void Aim(double sigma, double tau, bool corrects);
   bool SolveStep();
   double Longest();
+  double LongestInside(std::size_t contact) const;
   void Move(double length);
+  Way WayOfStep();
+  void MoveAlong(const Way& way, double length);
+  void TakeForces();
   double Chance();
 
   Request request_;
@@ -127,6 +147,7 @@ class InteriorPoint {
   std::vector<State> states_;            // by contact
   std::vector<BodyMatrix::Block> D_;     // by contact
   Vector v_, f_, dv_, df_, unbalanced_;  // the last: M (v - w) - J' f
+  Vector end_;                           // forces that the path was judged by last
   BestForces best_;
   BodyNewton newton_;
 };

@@ -11,7 +11,8 @@
 //   slips slowly  the first two, abs(fF - p) / L, p the point of the disc nearest to fF - (L / s_F) aF
 //
 // each the largest of its line, the contact that of its least mode. By (21), (22) a slip has any direction with
-// fF.aF <= 0. The law itself is that of errors.h. Shapes: f, a rows x 1; a = A f + b.
+// fF.aF <= 0. The law itself is that of errors.h. Shapes: f, a rows x 1; a = A f + b, known to `noise`, m/s^2:
+// an acceleration misses only what is beyond it, and aF turns towards fF by as much.
 
 #pragma once
 
@@ -27,13 +28,14 @@ namespace stiction {
 template <class Scalar>
 class LenientMeasure {
  public:
-  LenientMeasure(const LenientUnits<Scalar>& units, FrictionLaw law) : units_(units), law_(law) {}
+  LenientMeasure(const LenientUnits<Scalar>& units, FrictionLaw law, const Scalar& noise)
+      : units_(units), law_(law), noise_(noise) {}
 
   const Scalar& unit(int row) const { return units_.acceleration(row); }
   const Scalar& FrictionUnit(int contact, const Scalar&) const { return units_.friction(contact); }
-  Scalar OfRow(const Scalar& x, int row) const { return x > 0 ? InUnits(x, unit(row)) : Scalar(0); }
+  Scalar OfRow(const Scalar& x, int row) const { return InUnits(Beyond(x), unit(row)); }
   Scalar OfTangents(const std::array<Scalar, 2>& x, int row, int) const {
-    return InUnits(Length(x[0], x[1]), unit(row + 1));
+    return InUnits(Beyond(Length(x[0], x[1])), unit(row + 1));
   }
   Scalar OfFriction(const Scalar& x, const Scalar& unit) const { return InUnits(x, unit); }
   template <class Problem, class Vector>
@@ -52,7 +54,8 @@ class LenientMeasure {
 
   Scalar Excess(int, const FrictionAt<Scalar>& at) const { return BeyondDisc(at); }
   // All of it by its force.
-  SlipMiss<Scalar> Slip(int, const FrictionAt<Scalar>& at) const {
+  SlipMiss<Scalar> Slip(int, FrictionAt<Scalar> at) const {
+    TakeNoise(at);
     SlipMiss<Scalar> miss{Infinity<Scalar>(), {Scalar(0), Scalar(0)}};
     const Scalar speed = Length(at.a[0], at.a[1]);
     if (!(speed > 0)) return miss;
@@ -68,6 +71,16 @@ class LenientMeasure {
   }
 
  private:
+  Scalar Beyond(const Scalar& x) const { return std::max(Scalar(0), Scalar(x - noise_)); }
+  // As much of what aF has across fF as may be noise.
+  void TakeNoise(FrictionAt<Scalar>& at) const {
+    const Scalar length = Length(at.f[0], at.f[1]);
+    if (!(noise_ > 0) || !(length > 0)) return;
+    const std::array<Scalar, 2> across = {Scalar(-at.f[1] / length), Scalar(at.f[0] / length)};
+    const Scalar x = across[0] * at.a[0] + across[1] * at.a[1];
+    const Scalar less = x > 0 ? std::min(x, noise_) : std::max(x, Scalar(-noise_));
+    for (int k = 0; k < 2; ++k) at.a[k] -= less * across[k];
+  }
   static Scalar OffSlowSlip(const FrictionAt<Scalar>& at) {
     const Scalar &L = at.force_unit, &s = at.unit[0];
     if (!(s > 0) || !(L > 0) || !(L < Infinity<Scalar>())) return Infinity<Scalar>();
@@ -83,6 +96,7 @@ class LenientMeasure {
 
   const LenientUnits<Scalar>& units_;
   FrictionLaw law_;
+  Scalar noise_;
 };
 
 // The largest of all contacts, and where; of numbers that are not finite it is infinite. `units` is written:
@@ -94,7 +108,8 @@ struct LenientError {
 };
 template <class Problem, class Vector>
 auto MeasureLeniently(const Problem& problem, FrictionLaw law, const Vector& f, const Vector& a,
-                      LenientUnits<typename Vector::Scalar>& units) {
+                      LenientUnits<typename Vector::Scalar>& units,
+                      const typename Vector::Scalar& noise = typename Vector::Scalar(0)) {
   using Scalar = typename Vector::Scalar;
   LenientError<Scalar> worst;
   if (!AreFinite(f, a)) {
@@ -102,7 +117,7 @@ auto MeasureLeniently(const Problem& problem, FrictionLaw law, const Vector& f, 
     return worst;
   }
   units.Take(problem, f);
-  const LenientMeasure<Scalar> measure(units, law);
+  const LenientMeasure<Scalar> measure(units, law, noise);
   ForEachContact(problem, [&](int i, int row, int) {
     const Scalar error = NearestModeOf(problem, f, a, i, row, measure, measure).error;
     if (error > worst.error) worst = {error, i};
