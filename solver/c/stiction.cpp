@@ -299,9 +299,9 @@ class Solving {
 
   // How far the forces of the call before are off: of all but noise.
   double LenientErrorOf(const Factored& factors, const Vector& f) const {
-    Vector a = factors.Accelerations(f);
-    for (double& x : a) x = std::abs(x) <= options_.noise ? 0 : x;
-    return MeasureLeniently(factors, FrictionLaw::kCoulomb, f, a).error;
+    LenientUnits<double> units;
+    return MeasureLeniently(factors, FrictionLaw::kCoulomb, f, factors.Accelerations(f), units, options_.noise)
+        .error;
   }
 
   // Keeps the better forces.

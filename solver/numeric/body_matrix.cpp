@@ -142,12 +142,6 @@ auto BodyMatrix::Solve(const Vector& y) -> Vector {
   return ldlt_.solve(y);
 }
 
-auto BodyMatrix::SolveFinely(const Vector& y, int times) -> Vector {
-  Vector x = Solve(y);
-  for (; times > 0; --times) x += Solve(y - K_ * x);
-  return x;
-}
-
 bool ProjectOnLaw(const Contact<double>& contact, int rows, const double* p, double* f, BodyMatrix::Block& S) {
   S = {};
   for (int i = 0; i < rows; ++i) f[i] = 0;

@@ -50,8 +50,6 @@ class BodyMatrix {
   bool Factor(const std::vector<Block>& S, bool is_symmetric);
   // inv(K) y, of the K factored last.
   Vector Solve(const Vector& y);
-  // The same, with what is left of y taken away once more, `times` times.
-  Vector SolveFinely(const Vector& y, int times);
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

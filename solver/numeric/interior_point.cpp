@@ -11,7 +11,6 @@ namespace {
 constexpr int kSteps = 120, kIdleSteps = 20;
 constexpr double kJudgeBelow = 1e-6;  // tau from which on forces are judged
 constexpr double kLeastTau = 1e-28;
-constexpr int kRefinements = 2;  // of each solution of K x = y
 constexpr int kPatience = 6;     // attempts after which what is loose has to do
 constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
 constexpr int kFactorsOfCurve = 800;  // at most
@@ -295,7 +294,7 @@ bool InteriorPoint::SolveStep() {
     for (int i = 1; i < piece.rows; ++i)
       at[i] = along * state.e[i - 1] - (state.slip_miss[i - 1] - along_miss * state.e[i - 1]) / state.give;
   }
-  dv_ = matrix_.SolveFinely(problem_->A.J().transpose() * q - unbalanced_, kRefinements);
+  dv_ = matrix_.Solve(problem_->A.J().transpose() * q - unbalanced_);
   const Vector da = problem_->A.J() * dv_;
   for (std::size_t c = 0; c < states_.size(); ++c) {
     State& state = states_[c];

@@ -279,6 +279,37 @@ double LenientErrorAt(const ExactProblem& problem, const Eigen::VectorXd& f) {
   return MeasureLeniently(rounded, FrictionLaw::kCoulomb, f, a).error;
 }
 
+TEST_CASE("lenient: noise is taken off accelerations, not cut off, so an error grows from zero with them") {
+  // A = 1, f such that a = A f + b is what is to be seen.
+  constexpr double kNoise = 1e-3;
+  const auto error = [&](const std::vector<double>& a, const std::vector<double>& f) {
+    const int dimension = static_cast<int>(f.size());
+    ContactProblem<double> problem;
+    problem.dimension = dimension;
+    problem.contacts = {{ContactKind::kStatic, 0.5, {0, 0}}};
+    problem.A = Eigen::MatrixXd::Identity(dimension, dimension);
+    const Eigen::VectorXd forces = Eigen::Map<const Eigen::VectorXd>(f.data(), dimension),
+                          of = Eigen::Map<const Eigen::VectorXd>(a.data(), dimension);
+    problem.b = of - forces;
+    LenientUnits<double> units;
+    return MeasureLeniently(problem, FrictionLaw::kCoulomb, forces, of, units, kNoise).error;
+  };
+  for (const double more : {0.0, 1e-6, 1e-4}) {
+    CAPTURE(more);
+    const double a = kNoise + more;
+    CHECK(error({a, 0}, {1, 0}) <= 1.1 * more);
+    CHECK(error({0, a}, {1, 0.1}) <= 1.1 * more);
+    CHECK(error({a, 0}, {1, 0}) >= 0.5 * more);
+    CHECK(error({0, a}, {1, 0.1}) >= 0.5 * more);
+  }
+  // A slip of three times the noise may be off its friction by the angle that noise makes, and by no more.
+  const auto slip = [&](double across) { return error({0, -3 * kNoise, across}, {1, 0.5, 0}); };
+  CHECK(slip(kNoise) <= 1e-15);
+  CHECK(slip(-kNoise) <= 1e-15);
+  CHECK(slip(1.1 * kNoise) > 1e-3);
+  CHECK(error({0, 3 * kNoise, 0}, {1, 0.5, 0}) > 1e-3);  // a slip along its friction
+}
+
 TEST_CASE("lenient: friction that is off by a little of the force at its contact accuses nobody") {
   const ExactProblem alone = MakeProblem({1}, {{1, 0}, {0, 1}}, {-1, 0});
   CHECK(LenientErrorAt(alone, Eigen::Vector2d(1, 1e-12)) < 1e-11);
