@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "solver/linear/elimination.ipp"
+#include "solver/linear/direction.ipp"
 
 namespace stiction {
 
@@ -12,6 +12,15 @@ bool ExactDependentRows::Follows(const std::vector<bool>& zero, int row) {
   const auto [at, is_new] = known_.try_emplace({zero, row}, false);
   if (is_new) at->second = IsCombination(zero, row);
   return at->second;
+}
+
+auto ExactDependentRows::SolveDirection(const std::vector<IndexSet>& sets, int driven, int sign)
+    -> System::Status {
+  if (!layout_) {
+    layout_.emplace().Assign(problem_.contacts);
+    direction_.Start(problem_);
+  }
+  return direction_.Solve(problem_, *layout_, sets, driven, sign, {});
 }
 
 // The equations of the combination: a column for every row that is zero, the row itself on the right.

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "corpus/exact_problem.h"
-#include "solver/linear/elimination.h"
-#include "solver/problem/enclosure.h"
+#include "solver/linear/direction.h"
 
 namespace stiction {
 
@@ -19,6 +19,10 @@ class ExactDependentRows final : public DependentRows {
   explicit ExactDependentRows(const ExactProblem& problem) : problem_(problem) {}
 
   bool Follows(const std::vector<bool>& zero, int row) override;
+  // The direction of these sets.
+  using System = DirectionSystem<Rational, Eigen::Dynamic>;
+  System::Status SolveDirection(const std::vector<IndexSet>& sets, int driven, int sign);
+  const System& direction() const { return direction_; }
 
  private:
   using Integers = Eigen::Matrix<Elimination<Rational>::Entry, Eigen::Dynamic, Eigen::Dynamic>;
@@ -29,6 +33,8 @@ class ExactDependentRows final : public DependentRows {
   const ExactProblem& problem_;
   Integers integers_;  // (A b), each row scaled; from the first question on
   Elimination<Rational> system_;
+  std::optional<RowLayout<Eigen::Dynamic>> layout_;  // from the first direction on
+  System direction_;
   std::map<std::pair<std::vector<bool>, int>, bool> known_;
 };
 

@@ -31,6 +31,29 @@ constexpr bool kAsksForDependentRows = !std::is_same_v<Number, double>;
 // Rows from which on long floats are tried before rationals, whose numbers are short in small problems.
 constexpr int kLongFrom = 8;
 
+// What rationals know, in balls.
+template <class Number>
+class EnclosedRows final : public ExactDirections<Ball<Number>> {
+ public:
+  using System = typename ExactDirections<Ball<Number>>::System;
+
+  explicit EnclosedRows(ExactDependentRows& exact) : exact_(exact) {}
+
+  bool Follows(const std::vector<bool>& zero, int row) override { return exact_.Follows(zero, row); }
+  typename System::Status Solve(const std::vector<IndexSet>& sets, int driven, int sign,
+                                typename System::Vector& df, typename System::Vector& da) override {
+    const auto status = static_cast<typename System::Status>(exact_.SolveDirection(sets, driven, sign));
+    if (status != System::Status::kInconsistent) {
+      df = exact_.direction().df().unaryExpr(&BallAround<Number>);
+      da = exact_.direction().da().unaryExpr(&BallAround<Number>);
+    }
+    return status;
+  }
+
+ private:
+  ExactDependentRows& exact_;
+};
+
 template <class Number>
 std::span<const Method<Ball<Number>>> EnclosedMethods() {
   static const std::array rows = {BaraffRow<Ball<Number>>({}), CompleteRow<Ball<Number>>({}),
@@ -80,10 +103,10 @@ InexactAnswer RunOnRung(std::string_view method, const ExactProblem& problem, co
     answer.reason = Reason(remainder.end());
     return answer;
   }
-  std::optional<ExactDependentRows> dependent;
-  if (kAsksForDependentRows<Number>) dependent.emplace(remainder.exact());
+  ExactDependentRows rows(remainder.exact());
+  EnclosedRows<Number> dependent(rows);
   Request enclosed = request;
-  enclosed.dependent = dependent ? &*dependent : nullptr;
+  enclosed.dependent = kAsksForDependentRows<Number> ? &dependent : nullptr;
   const Method<Ball<Number>>* row = FindMethod<Ball<Number>>(method);
   STICTION_CHECK(row != nullptr, "a method over enclosures");
   const Answer<Ball<Number>> end = row->plane.run(remainder.problem(), enclosed);
@@ -128,10 +151,11 @@ namespace {
 // Empty where a sign is unsure.
 template <class Number>
 std::optional<Verdict> TryPublished(const ExactProblem& problem, const Request& request,
-                                    DependentRows* dependent) {
+                                    ExactDependentRows& rows) {
   thread_local PublishedAlgorithm<Ball<Number>> algorithm;
+  EnclosedRows<Number> dependent(rows);
   algorithm.request() = request;
-  algorithm.KnowDependentRows(dependent);
+  algorithm.KnowDependentRows(kAsksForDependentRows<Number> ? &dependent : nullptr);
   try {
     return algorithm.Run(Converted<Ball<Number>>(problem, &BallAround<Number>));
   } catch (const UnsureSign&) {
@@ -147,18 +171,18 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const Request& request,
     return {{Outcome::kSingular, remainder.Obstacle()}, Rung::kExact};
   }
   const ExactProblem& remaining = remainder.problem();
+  ExactDependentRows rows(remaining);
   if (rungs.first == Rung::kDouble) {
-    if (const auto verdict = TryPublished<double>(remaining, request, nullptr))
+    if (const auto verdict = TryPublished<double>(remaining, request, rows))
       return {*verdict, Rung::kDouble, /*by_balls=*/true};
   }
   if (rungs.first < Rung::kExact) {
-    ExactDependentRows dependent(remaining);
     if (Rung::kDoubleDouble <= rungs.last) {
-      if (const auto verdict = TryPublished<dd_real>(remaining, request, &dependent))
+      if (const auto verdict = TryPublished<dd_real>(remaining, request, rows))
         return {*verdict, Rung::kDoubleDouble, /*by_balls=*/true};
     }
     if (Rung::kExact == rungs.last && remaining.rows() >= kLongFrom) {
-      if (const auto verdict = TryPublished<LongFloat>(remaining, request, &dependent))
+      if (const auto verdict = TryPublished<LongFloat>(remaining, request, rows))
         return {*verdict, Rung::kExact, /*by_balls=*/true};
     }
   }

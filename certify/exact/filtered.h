@@ -5,7 +5,8 @@
 //   rung            numbers                                    zeros that it knows
 //   double          balls around doubles                       by the sets (solver/problem/enclosure.h)
 //   double-double   balls around double-doubles, 100 bits      besides, accelerations that follow from others
-//                                                              (dependent_rows.h)
+//                                                              (dependent_rows.h), and open pivots of
+//                                                              directions
 //   exact           balls around floats of 512 bits             as many
 //                   rationals, where these leave a sign open   all
 //
@@ -18,8 +19,9 @@
 //
 // Statements: `solved`, `cycle`, `ray`, `singular` and `stall` are true of the method in exact arithmetic, on
 // the problem as it is; the forces lie within their ends. A repeated state is a proof where its sets decide its
-// forces. Kinds: bilateral and sliding contacts leave the problem exactly, before it is enclosed (reduction.h);
-// a run is told in the terms of the whole problem, as those of exact.h.
+// forces, and those that were given up were left alike. Kinds: bilateral and sliding contacts leave the problem
+// exactly, before it is enclosed (reduction.h); a run is told in the terms of the whole problem, as those of
+// exact.h.
 
 #pragma once
 

@@ -33,6 +33,7 @@
 #include "solver/linear/elimination.h"
 #include "solver/linear/unknowns.h"
 #include "solver/linear/updated_system.h"
+#include "solver/problem/enclosure.h"
 
 namespace stiction {
 
@@ -73,6 +74,7 @@ class DirectionSystem {
   Status SolveForces(const Problem& problem, const Unknowns& unknowns, const Scale<Scalar>& scale);
 
   const Vector& df() const { return df_; }
+  Vector& df() { return df_; }
   const Vector& da() const { return da_; }
   Vector& da() { return da_; }
   const Updated& updated() const { return updated_; }
@@ -108,6 +110,17 @@ class DirectionSystem {
   Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> integer_A_;
   std::vector<Entry> row_scale_, numerator_;
   std::vector<Scaled> forces_, rests_;
+};
+
+// Rows that also tell directions, where balls leave a pivot open.
+template <class Scalar>
+class ExactDirections : public DependentRows {
+ public:
+  using System = DirectionSystem<Scalar, Eigen::Dynamic>;
+
+  // DirectionSystem::Solve on the problem that is enclosed; df and da are set unless it is inconsistent.
+  virtual typename System::Status Solve(const std::vector<IndexSet>& sets, int driven, int sign,
+                                        typename System::Vector& df, typename System::Vector& da) = 0;
 };
 
 }  // namespace stiction

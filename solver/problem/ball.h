@@ -20,7 +20,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <type_traits>
 
@@ -28,11 +27,6 @@
 #include "solver/problem/scalar.h"
 
 namespace stiction {
-
-class UnsureSign : public std::exception {
- public:
-  const char* what() const noexcept override { return "a sign is unsure"; }
-};
 
 // How far the operations of a number type round. Specialised beside it: double here.
 //   Near(x)              a double near x

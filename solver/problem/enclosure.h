@@ -7,11 +7,18 @@
 
 #pragma once
 
+#include <exception>
 #include <vector>
 
 #include "solver/problem/scalar.h"
 
 namespace stiction {
+
+// What comparisons of balls throw (ball.h).
+class UnsureSign : public std::exception {
+ public:
+  const char* what() const noexcept override { return "a sign is unsure"; }
+};
 
 // Specialised beside the scalar, with Approximation.
 template <class Scalar>

@@ -11,12 +11,13 @@
 // can fail to end: a repeated outer state is the outcome `cycle`, a repeated state inside a drive `stall`.
 //
 // Over exact scalars a repetition is a proof; over enclosures (problem/enclosure.h) every step is, a repetition
-// where the sets decide the forces, and what the ends do not decide throws. Over inexact ones it is a
-// suspicion: forces are compared after rounding, and callers run the problem again exactly before they claim
-// anything.
+// where the sets decide the forces and those that were given up were left alike, and what the ends do not
+// decide throws. Over inexact ones it is a suspicion: forces are compared after rounding, and callers run the
+// problem again exactly before they claim anything.
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -55,9 +56,10 @@ class PublishedAlgorithm {
   Verdict Run(const Problem& problem, Trace<Scalar>* trace = nullptr);
 
   // Over enclosures: tells accelerations that are zero where others are, by an equation between the rows of A
-  // and of b. Null: none.
+  // and of b, and directions, if it is one that does. Null: none.
   void KnowDependentRows(DependentRows* rows) {
     dependent_rows_ = rows;
+    exact_directions_ = dynamic_cast<ExactDirections<Scalar>*>(rows);
     step_size_.KnowDependentRows(rows);
   }
 
@@ -80,6 +82,15 @@ class PublishedAlgorithm {
     IndexSets<Rows> sets;
     Vector f;
     int contact;
+    RowArray<int, Rows> left_at;
+  };
+  // Over enclosures: what is known after a step that leaves a force where it is, its variable given up.
+  struct Leaving {
+    std::vector<std::array<int, 3>> known;  // by row: whether a = 0, whether f = 0, the sign of the limit of f
+    RowArray<int, Rows> before;             // which leaving each force is from, -1: none
+    bool decided;                           // whether one vector of forces is all that has this
+
+    bool operator==(const Leaving&) const = default;
   };
   // What can recur inside a run of zero steps, where forces do not change.
   struct InnerState {
@@ -106,11 +117,16 @@ class PublishedAlgorithm {
   void Establish(int row);
   bool OuterStateRecurs();
   bool SurelyDiffers(const Vector& f) const;
-  bool SetsDecideForces(const Vector& earlier);
+  bool SetsDecideForces(const OuterState& earlier);
+  int LeftAt(int row) const { return state_.sets[row] == IndexSet::kNone ? left_at_[row] : -1; }
   std::uint64_t RoundedHash() const;
 
   // One drive (4.1-4.3, 5.2-5.5).
+  using Status = typename DirectionSystem<Scalar, Rows>::Status;
+
   void DriveToZero(int driven, DriveGoal goal);
+  Status SolveDirection(int driven, int sign);
+  void NoteLeaving(const Step<Scalar>& step, int driven, Status status);
   void Advance(const Scalar& s, int limiting, IndexSet wants, int driven);
   void Move(int row, IndexSet to);
   void MoveLimiting(int row, IndexSet wants);
@@ -134,6 +150,7 @@ class PublishedAlgorithm {
   DirectionSystem<Scalar, Rows> direction_;
   StepSize<Scalar, Rows> step_size_;
   DependentRows* dependent_rows_ = nullptr;
+  ExactDirections<Scalar>* exact_directions_ = nullptr;
 
   State state_;
   Verdict verdict_;
@@ -144,6 +161,8 @@ class PublishedAlgorithm {
   std::int64_t zero_run_ = 0;
   std::vector<OuterState> outer_states_;
   std::vector<InnerState> inner_states_;
+  std::vector<Leaving> leavings_;  // that differ, or decide nothing
+  RowArray<int, Rows> left_at_;    // which of them left the force of each row where it is, -1: none
 };
 
 }  // namespace stiction

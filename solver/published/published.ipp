@@ -75,6 +75,10 @@ void PublishedAlgorithm<Scalar, Rows>::Start(const Problem& problem, Trace<Scala
   last_step_zero_ = false;
   outer_states_.clear();
   inner_states_.clear();
+  if constexpr (kEncloses<Scalar>) {
+    leavings_.clear();
+    Reset<int, Rows>(left_at_, rows, -1);
+  }
 }
 
 // f = 0, and no variable in a set.
@@ -206,12 +210,12 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     FileBySign(driven + 1);
   }
   const int sign = normal ? 1 : goal == DriveGoal::kZero ? -Sign(state_.f[driven]) : -Sign(state_.a[driven]);
-  using System = DirectionSystem<Scalar, Rows>;
+  if constexpr (kEncloses<Scalar>) left_at_[driven] = -1;
   while (true) {
     if (InnerStateRecurs() || BudgetSpent()) return;
-    const auto status = direction_.Solve(*problem_, layout_, state_.sets, driven, sign, scale_);
-    if (status != System::Status::kRegular) ++statistics.singular_directions;
-    if (status == System::Status::kInconsistent) return End(Outcome::kSingular);
+    const Status status = SolveDirection(driven, sign);
+    if (status != Status::kRegular) ++statistics.singular_directions;
+    if (status == Status::kInconsistent) return End(Outcome::kSingular);
     if constexpr (kEncloses<Scalar>) MeetDependentZeros(dependent_rows_, direction_.da());
     const Step<Scalar> step =
         step_size_.Find(*problem_, layout_, state_, direction_, driven, goal, request_.policy.ties, scale_);
@@ -231,6 +235,7 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     statistics.bounces += wants_back && zero;
     statistics.give_ups += gives_up;
     if (gives_up) {
+      if constexpr (kEncloses<Scalar>) NoteLeaving(step, driven, status);
       GiveUpLimiting(step.limiting, driven);
     } else {
       MoveLimiting(step.limiting, step.wants);
@@ -240,6 +245,44 @@ void PublishedAlgorithm<Scalar, Rows>::DriveToZero(int driven, DriveGoal goal) {
     Record(driven, goal, step, from, gives_up);
     if (step.limiting == driven) return;
   }
+}
+
+// Over balls that leave a pivot open, as often where the system is singular, rationals may tell.
+template <class Scalar, int Rows>
+auto PublishedAlgorithm<Scalar, Rows>::SolveDirection(int driven, int sign) -> Status {
+  const auto solve = [&] { return direction_.Solve(*problem_, layout_, state_.sets, driven, sign, scale_); };
+  if constexpr (kEncloses<Scalar> && Rows == Eigen::Dynamic) {
+    if (exact_directions_ != nullptr) {
+      try {
+        return solve();
+      } catch (const UnsureSign&) {
+        return exact_directions_->Solve(state_.sets, driven, sign, direction_.df(), direction_.da());
+      }
+    }
+  }
+  return solve();
+}
+
+// What is known of the forces after a step decides them where its direction is the only one: along it, the
+// condition of the limiting variable holds at one point.
+template <class Scalar, int Rows>
+void PublishedAlgorithm<Scalar, Rows>::NoteLeaving(const Step<Scalar>& step, int driven, Status status) {
+  Leaving leaving = {{}, left_at_, status == Status::kRegular};
+  leaving.known.assign(left_at_.size(), {});
+  for (int row = 0; row < problem_->rows(); ++row) {
+    const IndexSet set = state_.sets[row];
+    const int limit = LimitSign(row == step.limiting && LimitSign(step.wants) != 0 ? step.wants : set);
+    const bool is_zero = IsSurelyZero(state_.f[row]), rests = IsSurelyZero(state_.a[row]);
+    const bool is_left = !is_zero && limit == 0 && !IsUnknown(set) && row != driven;
+    leaving.known[row] = {rests, is_zero, is_zero ? 0 : limit};
+    leaving.before[row] = is_left ? LeftAt(row) : -1;
+    leaving.decided &= (!is_left || LeftAt(row) >= 0) && (rests || !IsUnknown(set));
+  }
+  const auto same = leaving.decided ? std::find(leavings_.begin(), leavings_.end(), leaving) : leavings_.end();
+  const int number = static_cast<int>(same - leavings_.begin());
+  if (same == leavings_.end()) leavings_.push_back(std::move(leaving));
+  const bool with_friction = layout_.IsNormal(step.limiting) && layout_.HasFriction(step.limiting);
+  for (int row = step.limiting; row <= step.limiting + with_friction; ++row) left_at_[row] = number;
 }
 
 // f += s df, a += s da. Over inexact scalars and enclosures the limit that was reached is then met exactly;
@@ -344,16 +387,16 @@ bool PublishedAlgorithm<Scalar, Rows>::SurelyDiffers(const Vector& f) const {
 }
 
 // Over enclosures: whether the forces, now and in an earlier state of the same sets, are the one solution of
-// the equations of these sets.
+// the equations of these sets, where some forces were left the same.
 template <class Scalar, int Rows>
-bool PublishedAlgorithm<Scalar, Rows>::SetsDecideForces(const Vector& earlier) {
-  using System = DirectionSystem<Scalar, Rows>;
+bool PublishedAlgorithm<Scalar, Rows>::SetsDecideForces(const OuterState& earlier) {
   for (int row = 0; row < problem_->rows(); ++row) {
     const bool decided = IsUnknown(state_.sets[row]) || LimitSign(state_.sets[row]) != 0;
-    if (!decided && !(IsSurelyZero(state_.f[row]) && IsSurelyZero(earlier[row]))) return false;
+    const bool left = LeftAt(row) >= 0 && LeftAt(row) == earlier.left_at[row];
+    if (!decided && !left && !(IsSurelyZero(state_.f[row]) && IsSurelyZero(earlier.f[row]))) return false;
   }
   const SetUnknowns<Scalar, Rows> unknowns{*problem_, layout_, state_.sets};
-  return direction_.SolveForces(*problem_, unknowns, scale_) == System::Status::kRegular;
+  return direction_.SolveForces(*problem_, unknowns, scale_) == Status::kRegular;
 }
 
 template <class Scalar, int Rows>
@@ -365,7 +408,7 @@ bool PublishedAlgorithm<Scalar, Rows>::OuterStateRecurs() {
     if (earlier.contact != contact) continue;
     if constexpr (kEncloses<Scalar>) {
       if (earlier.sets != state_.sets || SurelyDiffers(earlier.f)) continue;
-      if (!SetsDecideForces(earlier.f)) Unsure<Scalar>::Refuse();
+      if (!SetsDecideForces(earlier)) Unsure<Scalar>::Refuse();
     } else if constexpr (kIsExact<Scalar>) {
       if (earlier.sets != state_.sets || earlier.f != state_.f) continue;
     } else {
@@ -385,6 +428,7 @@ bool PublishedAlgorithm<Scalar, Rows>::OuterStateRecurs() {
     now.sets = state_.sets;
     now.f = state_.f;
   }
+  if constexpr (kEncloses<Scalar>) now.left_at = left_at_;
   return false;
 }
 

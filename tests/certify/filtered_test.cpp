@@ -181,6 +181,56 @@ TEST_CASE("filtered: loops are proved without rationals where the sets decide th
   CHECK(proved == static_cast<int>(CyclingSeeds().size()));
 }
 
+TEST_CASE("filtered: loops are proved without rationals where a force that was given up is left alike") {
+  for (const ExactProblem& problem : {MakeProblem({5, 5, 5},
+                                                  {{5, 1, -2, 0, 0, 4},
+                                                   {1, 2, 3, 0, -2, 2},
+                                                   {-2, 3, 9, 0, -2, 2},
+                                                   {0, 0, 0, 0, 0, 0},
+                                                   {0, -2, -2, 0, 5, 2},
+                                                   {4, 2, 2, 0, 2, 13}},
+                                                  {4, 4, 4, 0, -2, 13}),
+                                      MakeProblem({5, 5, 5},
+                                                  {{5, 0, 0, 1, 1, 4},
+                                                   {0, 8, 2, -2, -4, -4},
+                                                   {0, 2, 2, 1, 0, -3},
+                                                   {1, -2, 1, 3, 3, -1},
+                                                   {1, -4, 0, 3, 5, 2},
+                                                   {4, -4, -3, -1, 2, 10}},
+                                                  {1, -6, -1, 1, 1, 3})}) {
+    const ExactRun exact = RunExact(problem, {});
+    const auto is_left = [&](int row) { return exact.sets[row] == IndexSet::kNone && exact.f[row] != 0; };
+    CHECK((is_left(1) || is_left(3) || is_left(5)));
+    const auto [verdict, rung, by_balls] =
+        RunPublishedFiltered(problem, {}, {Rung::kDoubleDouble, Rung::kDoubleDouble});
+    CHECK(by_balls);
+    CHECK(verdict.outcome == Outcome::kCycle);
+    CHECK(verdict.start == exact.verdict.start);
+    CHECK(verdict.period == exact.verdict.period);
+    CHECK(verdict.statistics == exact.verdict.statistics);
+  }
+}
+
+TEST_CASE("filtered: where a direction has a singular system, rationals tell it") {
+  int singular = 0;
+  for (int index = 0; index < 1500; ++index) {
+    const ExactProblem problem = Random<Rational>(GeneratorId::kSmall, 4, index);
+    const Verdict exact = RunExact(problem, {}).verdict;
+    if (exact.statistics.singular_directions == 0) continue;
+    CAPTURE(index);
+    const auto [verdict, rung, by_balls] =
+        RunPublishedFiltered(problem, {}, {Rung::kDoubleDouble, Rung::kDoubleDouble});
+    singular += by_balls;
+    if (by_balls) {
+      CHECK(verdict.outcome == exact.outcome);
+      CHECK(verdict.statistics == exact.statistics);
+    }
+    Agrees(RunEnclosed("baraff", problem, {.trace = true}, Rung::kDoubleDouble),
+           std::get<ExactAnswer>(SolveIn(problem, {.method = "baraff", .trace = true}).answer));
+  }
+  CHECK(singular > 0);
+}
+
 TEST_CASE("filtered: bilateral and sliding contacts leave exactly, and runs are told in their terms") {
   for (const std::string_view method : MethodsWithRungs()) {
     int decided = 0;
