@@ -18,12 +18,17 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
-  best_.Offer(f_);
+  // The error of a start is asked for where it is the best there is: it costs as much as a step.
+  const auto offer_start = [this] {
+    if (best_.f().size() != center_.size()) best_.Offer(center_);
+  };
+  if (start == nullptr) offer_start();
   int idle = 0, failures = 0;
   while (!(best_.error() <= aim)) {
     const bool is_good = best_.IsGood();
     if (is_good && best_.IsRounding()) break;
     if (request_.limits.Stopped() && !is_good) {
+      offer_start();
       verdict_.reason = kStopped;
       return verdict_;
     }
@@ -37,6 +42,7 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
     ++idle;
     const Vector v = v_;
     if (!Settle()) {
+      offer_start();
       if (++failures > this->failures) {
         verdict_.reason = "Newton's method settles too rarely";
         return verdict_;

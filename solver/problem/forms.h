@@ -52,25 +52,30 @@ class FactoredMatrix {
 
   Scalar coeff(int i, int j) const { return JW_.row(i).dot(J_.row(j)); }
 
-  // visit(i, j, A_ij) for the entries that a shared velocity makes, row by row.
+  // visit(i, j, A_ij) for the entries that a shared velocity makes, row by row. The matrices are compressed.
   template <class Visit>
   void ForEach(Visit visit) const {
-    std::vector<Scalar> row(J_.rows(), Scalar(0));
-    std::vector<int> touched, last(J_.rows(), -1);
-    for (int i = 0; i < J_.rows(); ++i) {
-      touched.clear();
-      for (typename Rows::InnerIterator of(JW_, i); of; ++of) {
-        for (typename Matrix::InnerIterator other(columns_, of.col()); other; ++other) {
-          const int j = static_cast<int>(other.row());
-          if (last[j] != i) {
-            last[j] = i;
-            row[j] = Scalar(0);
-            touched.push_back(j);
+    const int *begin = JW_.outerIndexPtr(), *of = JW_.innerIndexPtr();
+    const int *column = columns_.outerIndexPtr(), *other = columns_.innerIndexPtr();
+    const Scalar *x = JW_.valuePtr(), *y = columns_.valuePtr();
+    const int rows = static_cast<int>(J_.rows());
+    std::vector<Scalar> row(rows, Scalar(0));
+    std::vector<int> touched(rows), last(rows, -1);
+    for (int i = 0; i < rows; ++i) {
+      int count = 0;
+      for (int p = begin[i]; p < begin[i + 1]; ++p) {
+        for (int q = column[of[p]]; q < column[of[p] + 1]; ++q) {
+          const int j = other[q];
+          if (last[j] == i) {
+            row[j] += x[p] * y[q];
+            continue;
           }
-          row[j] += of.value() * other.value();
+          last[j] = i;
+          row[j] = x[p] * y[q];
+          touched[count++] = j;
         }
       }
-      for (const int j : touched) visit(i, j, row[j]);
+      for (int k = 0; k < count; ++k) visit(i, touched[k], row[touched[k]]);
     }
   }
 
