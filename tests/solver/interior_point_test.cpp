@@ -7,6 +7,9 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "tests/solver/draw_factors.h"
 
@@ -123,6 +126,52 @@ TEST_CASE("interior point: a block on a slope in space rests inside its cone, an
     CHECK(method.f()[1] == Approx(-std::min(down, 0.5)));
     CHECK(method.a()[1] == Approx(std::max(0.0, down - 0.5)).margin(1e-9));
   }
+}
+
+// Of 30 velocities and more: rows and velocities; w; c; a row of J each line, as column:entry.
+FactoredProblem<double> ReadImpact(const std::string& name) {
+  std::ifstream in(std::string(STICTION_SOURCES) + "/tests/solver/" + name);
+  int rows = 0, velocities = 0;
+  REQUIRE(in >> rows >> velocities);
+  Eigen::VectorXd w(velocities), c(rows);
+  for (double& x : w) in >> x;
+  for (double& x : c) in >> x;
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, velocities);
+  std::string line;
+  std::getline(in, line);
+  for (int row = 0; row < rows; ++row) {
+    REQUIRE(std::getline(in, line));
+    std::istringstream entries(line);
+    int column = 0;
+    char colon = 0;
+    double x = 0;
+    while (entries >> column >> colon >> x) J(row, column) = x;
+  }
+  // Bodies of mass 1 and inertia 0.0883333.
+  FactoredProblem<double> problem;
+  Eigen::SparseMatrix<double> M(velocities, velocities), W(velocities, velocities);
+  for (int k = 0; k < velocities; ++k) {
+    M.insert(k, k) = k % 3 < 2 ? 1 : 0.0883333;
+    W.insert(k, k) = 1 / M.coeff(k, k);
+  }
+  problem.dimension = 2;
+  problem.contacts.assign(static_cast<std::size_t>(rows / 2), {ContactKind::kStatic, 0.7, {0, 0}});
+  problem.A = FactoredMatrix<double>(J.sparseView(), W);
+  problem.M = M;
+  problem.w = w;
+  problem.c = c;
+  problem.b = J * w + c;
+  return problem;
+}
+
+TEST_CASE("interior point: a path that turns back is followed") {
+  const FactoredProblem<double> problem = ReadImpact("path_that_turns_back.txt");
+  InteriorPoint method({.noise = 1e-11 * problem.b.cwiseAbs().maxCoeff()});
+  method.measure = BestForces::Measure::kLenient;
+  const RunEnd<> end = method.Run(problem);
+  CHECK(end.outcome == Outcome::kSolved);
+  CHECK(end.statistics[Counter::kStarts] == 4);  // the one that goes by the curve's length
+  CHECK(method.error() <= 1e-8);
 }
 
 TEST_CASE("interior point: a contact that hardly feels an impact is right in its own unit") {
