@@ -29,7 +29,7 @@
 #include "corpus/input_error.h"
 #include "corpus/json.h"
 #include "corpus/rounded.h"
-#include "corpus/stop_reading.h"
+#include "corpus/stop.h"
 
 namespace stiction {
 namespace {
@@ -204,13 +204,13 @@ Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
 Answered SolveOne(const SolveVerb& o) {
   std::atomic<bool> stopped = false;
   const std::jthread timer = StopAfter(o.seconds, stopped);
-  const StopReading while_read(stopped);
+  const Stop stop(&stopped);
   try {
     return SolveRead(o, stopped);
-  } catch (const ReadingStopped& end) {
+  } catch (const Stopped&) {
     InexactAnswer none;
     none.method = o.method;
-    none.reason = end.what();
+    none.reason = "stopped while the file was read";
     const Solution solution{none};
     Json result = SolutionToJson(solution, 2);
     result["assumptions"] = Json::array();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "corpus/record/asymmetry.h"
+#include "corpus/stop.h"
 
 namespace stiction {
 namespace {
@@ -39,6 +40,7 @@ double LargestRowSum(const Sparse& S) {
 
 // least of the header for one shift, if the factorization succeeds.
 std::optional<double> LeastWithShift(const Sparse& S, double shift) {
+  Stop::Check();
   const Sparse B = Shifted(S, shift);
   const Eigen::SimplicialLLT<Sparse> cholesky(B);
   if (cholesky.info() != Eigen::Success) return std::nullopt;
@@ -128,6 +130,7 @@ RangeDistance BoundRangeDistance(const AnyProblem& problem) {
   const double scale = LargestRowSum(S);
   constexpr double kShifts[] = {1e-8, 1e-10, 1e-12};
   for (const double shift : kShifts) {
+    Stop::Check();
     const ExactVector x = ToExact(ProximalPoint(S, A, b, shift * scale, shift == kShifts[0] ? 10 : 40));
     const double distance = RelativeResidual(problem, x);
     if (shift == kShifts[0]) best.rough = distance;
@@ -168,6 +171,7 @@ bool IsRegularModuloPrime(const AnyProblem& problem) {
   });
   if (!has_residues) return false;
   for (int k = 0; k < rows; ++k) {
+    Stop::Check();
     int pivot = k;
     while (pivot < rows && M[pivot][k] == 0) ++pivot;
     if (pivot == rows) return false;

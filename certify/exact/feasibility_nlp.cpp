@@ -11,6 +11,7 @@
 #include "certify/exact/line_process.h"
 #include "certify/exact/qp.h"
 #include "corpus/json.h"
+#include "corpus/stop.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -28,7 +29,8 @@ bool IsGreeting(const std::string& line) {
 
 // Runs the program and waits for its greeting. InputError if it cannot be run, or does not speak the protocol.
 std::unique_ptr<LineProcess> StartIpopt(const std::filesystem::path& program) {
-  auto process = std::make_unique<LineProcess>(std::vector{program.string()}, "the program stiction-ipopt");
+  auto process = std::make_unique<LineProcess>(std::vector{program.string()}, "the program stiction-ipopt",
+                                               LineBounds{.stopped = &Stop::IsAsked});
   const LineProcess::Line line = process->Read(LineProcess::After(kGreetingPatience));
   if (line.end == LineProcess::End::kLine && IsGreeting(line.text)) return process;
   throw InputError(fmt::format(
@@ -104,6 +106,7 @@ std::optional<std::vector<double>> IpoptProposer::Ask(const std::string& request
     // Kept only if it answers: whatever is thrown ends it.
     std::unique_ptr<LineProcess> process = std::move(process_);
     const LineProcess::Line line = process->Exchange(request, patience);
+    Stop::Check();
     if (line.end == LineProcess::End::kLine) {
       std::vector<double> f = ReadPoint(line.text, counters);
       process_ = std::move(process);

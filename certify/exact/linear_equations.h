@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear equations over rationals: by elimination, or, hundreds of them, by Dixon's p-adic lifting (FLINT).
-//
-// Source  J. D. Dixon, Exact solution of linear equations using p-adic expansions, Numerische Mathematik 40,
-//         1982.
-// Cost    of lifting: O(size^3) operations on machine words, and size^2 for each digit of the solution.
+// Linear equations over rationals: by elimination, or, hundreds of them, by lifting (corpus/lifting.h).
 
 #pragma once
 
@@ -18,10 +14,9 @@ namespace stiction {
 std::optional<ExactVector> SolveEquations(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
 
-// As SolveEquations, and the same numbers. Rows and columns are chosen that are
-// independent modulo a prime of 62 bits, and so are; the other rows are checked. Where that prime divides a
-// minor there may be more: then it may say of equations that have a solution that they contradict each other,
-// never the reverse.
+// As SolveEquations, and the same numbers. Rows and columns are chosen that are independent modulo a prime of 62
+// bits, and so are; the other rows are checked. Where that prime divides a minor there may be more: then it may
+// say of equations that have a solution that they contradict each other, never the reverse.
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
 

@@ -5,6 +5,9 @@
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 
+#include <boost/iterator/transform_iterator.hpp>
+
+#include "corpus/stop.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -31,6 +34,15 @@ Rational FromCgal(const CGAL::Quotient<CGAL::Gmpz>& x) {
   Rational number(FromCgal(x.numerator()), FromCgal(x.denominator()));
   number.canonicalize();
   return number;
+}
+
+// Columns of a program, which every pivot of QP_solver reads: there it stops (corpus/stop.h).
+template <class Column>
+auto Stopping(Column column) {
+  return boost::make_transform_iterator(column, [](const auto& values) {
+    Stop::Check();
+    return values;
+  });
 }
 
 CGAL::Quadratic_program_options BlandsRule() {
@@ -81,7 +93,10 @@ std::variant<Point, Combination> Solve(const LinearSystem& system) {
       if (system.free[j]) program.set_a(column++, i, -coefficient);
     }
   }
-  const auto solution = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpz(), BlandsRule());
+  const auto stopping = CGAL::make_nonnegative_linear_program_from_iterators(
+      program.get_n(), program.get_m(), Stopping(program.get_a()), program.get_b(), program.get_r(),
+      program.get_c());
+  const auto solution = CGAL::solve_nonnegative_linear_program(stopping, CGAL::Gmpz(), BlandsRule());
   if (solution.is_infeasible()) {
     Combination combination;
     auto lambda = solution.infeasibility_certificate_begin();
@@ -118,7 +133,10 @@ Answer<Rational> Minimize(const std::vector<std::vector<mpz_class>>& M, const st
     program.set_c(i, CGAL::Gmpz(c[i].get_mpz_t()));
     for (int j = 0; j <= i; ++j) program.set_d(i, j, CGAL::Gmpz(M[i][j].get_mpz_t()));
   }
-  const auto solution = CGAL::solve_nonnegative_quadratic_program(program, CGAL::Gmpz(), BlandsRule());
+  const auto stopping = CGAL::make_nonnegative_quadratic_program_from_iterators(
+      program.get_n(), program.get_m(), program.get_a(), program.get_b(), program.get_r(),
+      Stopping(program.get_d()), program.get_c());
+  const auto solution = CGAL::solve_nonnegative_quadratic_program(stopping, CGAL::Gmpz(), BlandsRule());
   Answer<Rational> answer;
   answer.counters = {{Counter::kIterations, solution.number_of_iterations()}};
   if (solution.is_optimal()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/properties.h"
 
+#include "corpus/stop.h"
 #include "solver/linear/elimination.ipp"
 
 namespace stiction {
@@ -43,12 +44,6 @@ void EliminateColumn(ExactMatrix& S, ExactMatrix& L, int k) {
   }
 }
 
-void AddMultiple(ExactMatrix& M, int to, int from, const Rational& factor) {
-  for (int j = 0; j < M.cols(); ++j) {
-    if (M(from, j) != 0) M(to, j) += factor * M(from, j);
-  }
-}
-
 }  // namespace
 
 std::optional<std::pair<int, int>> FindAsymmetry(const ExactMatrix& A) {
@@ -65,6 +60,7 @@ std::variant<LdltFactors, Obstacle> DecideSemidefinite(const ExactMatrix& A) {
   ExactMatrix S = (A + A.transpose()) / Rational(2);
   LdltFactors factors{ExactMatrix::Identity(size, size), ExactVector::Zero(size)};
   for (int k = 0; k < size; ++k) {
+    Stop::Check();
     if (const auto y = CurvatureOfSchur(S, k)) {
       const ExactVector x = SolveTransposed(factors.L, *y);
       return Obstacle{x, x.dot(A * x)};
@@ -82,34 +78,6 @@ std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A) {
     if (factors->D[k] == 0) return Obstacle{SolveTransposed(factors->L, ExactVector::Unit(A.rows(), k)), 0};
   }
   return decision;
-}
-
-// Row echelon form of [A | b | I]: a row that is zero in A names the obstacle in its last part.
-std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const ExactVector& b) {
-  const int size = static_cast<int>(b.size());
-  ExactMatrix M(size, 2 * size + 1);
-  M.leftCols(size) = A;
-  M.col(size) = b;
-  M.rightCols(size).setIdentity();
-  std::vector<int> pivot_column;
-  for (int column = 0; column < size; ++column) {
-    const int rank = static_cast<int>(pivot_column.size());
-    int pivot = rank;
-    while (pivot < size && M(pivot, column) == 0) ++pivot;
-    if (pivot == size) continue;
-    if (pivot != rank) M.row(rank).swap(M.row(pivot));
-    for (int i = 0; i < size; ++i) {
-      if (i != rank && M(i, column) != 0) AddMultiple(M, i, rank, Rational(-M(i, column) / M(rank, column)));
-    }
-    pivot_column.push_back(column);
-  }
-  const int rank = static_cast<int>(pivot_column.size());
-  for (int i = rank; i < size; ++i) {
-    if (M(i, size) != 0) return Obstacle{M.row(i).tail(size).transpose(), M(i, size)};
-  }
-  ExactVector x = ExactVector::Zero(size);
-  for (int i = 0; i < rank; ++i) x[pivot_column[i]] = M(i, size) / M(i, pivot_column[i]);
-  return x;
 }
 
 int RankOf(const ExactMatrix& A) {

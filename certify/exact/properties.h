@@ -41,7 +41,7 @@ std::variant<LdltFactors, Obstacle> DecideSemidefinite(const ExactMatrix& A);
 // D > 0; or x'Ax <= 0 for an x that is not 0. Of an asymmetric matrix as above.
 std::variant<LdltFactors, Obstacle> DecideDefinite(const ExactMatrix& A);
 
-// x with A x = b; or y'b /= 0, where y'A = 0.
+// x with A x = b; or y'b /= 0, where y'A = 0. By lifting (corpus/lifting.h).
 std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const ExactVector& b);
 
 // Up to so many rows exact elimination of numbers as long as doubles takes no minutes.

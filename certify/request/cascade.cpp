@@ -10,6 +10,7 @@
 #include "certify/request/entries.h"
 #include "certify/request/quad.h"
 #include "certify/request/rest.h"
+#include "corpus/stop.h"
 #include "solver/numeric/coulomb.h"
 #include "solver/problem/row_scale.h"
 
@@ -32,6 +33,7 @@ bool Always(const Posed&, const Best&) { return true; }
 bool HasFactors(const Posed& posed, const Best&) { return posed.factors() != nullptr; }
 bool StaysSparse(const Posed& posed, const Best&) { return posed.StaysSparse(); }
 bool HasFewRows(const Posed& posed, const Best&) { return posed.rows() < kCellsFirst; }
+bool HasManyRows(const Posed& posed, const Best&) { return posed.rows() >= kCellsFirst; }
 bool IsSingular(const Posed&, const Best& best) { return best && best->outcome() == Outcome::kSingular; }
 
 // Forces to go on from, or to be told as the best.
@@ -135,6 +137,7 @@ constexpr Turn kCascade[] = {
     {kDouble, 3, &IsAffordable, "fast", kQuad, &RunNewtonOverQuad},
     {kDouble, 3, &HasForces, kAutomatic, kDouble},
     {kFiltered, 2, &HasFewRows, "complete", kFiltered, &RunIfSolved},
+    {kFiltered, 2, &HasManyRows, "fast", kFiltered, &RunIfSolved},
     {kFiltered, 2, &Always, kAutomatic, kExact, &RunExactly},
     {kFloat, 0, &Always, kAutomatic, kFloat},
     {kQuad, 0, &Always, kAutomatic, kQuad},
@@ -173,14 +176,22 @@ Solution SolveInTurn(Posed& posed, const Request& request) {
         turn.over == request.arithmetic && (turn.dimension == 0 || turn.dimension == posed.dimension());
     if (!concerns || !turn.when(posed, best)) continue;
     const Request named = By(request, turn.method, turn.in);
-    Best told = turn.run != nullptr ? turn.run(posed, named, best) : Best(SolveNamed(posed, named));
+    Best told;
+    try {
+      told = turn.run != nullptr ? turn.run(posed, named, best) : Best(SolveNamed(posed, named));
+    } catch (const Stopped&) {
+      if (!best) throw;
+    }
     if (told && IsBetter(*told, best)) {
       if (turn.in == kQuad && best) told->suspected = std::get<InexactAnswer>(std::move(best->answer));
       best = std::move(told);
     }
     if (best && (turn.is_last || IsDecided(*best) || request.limits.Stopped())) break;
   }
-  if (request.arithmetic != kDouble || !posed.StaysSparse()) PreferRestIn(posed, request, *best);
+  try {
+    if (request.arithmetic != kDouble || !posed.StaysSparse()) PreferRestIn(posed, request, *best);
+  } catch (const Stopped&) {  // what is found remains
+  }
   return *std::move(best);
 }
 

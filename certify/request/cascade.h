@@ -11,7 +11,7 @@
 //              are singular, the fast method over quad; in space the fast method without polygons, Newton's
 //              method over quad from where it ended, the table. A step over quad costs about rows^3 / 3
 //              operations, and kQuadOperations are spent at most.
-//   filtered   complete driving of few rows, then as over rationals
+//   filtered   complete driving of few rows, the fast method of many, then as over rationals
 //   others     the table
 //
 // Of several solutions one is preferred whose contacts rest (rest.h).

@@ -17,6 +17,7 @@
 #include "certify/request/cascade.h"
 #include "certify/request/request.h"
 #include "corpus/record/asymmetry.h"
+#include "corpus/stop.h"
 #include "solver/problem/errors.h"
 
 namespace stiction {
@@ -57,25 +58,32 @@ void DecideCurvature(const AnyProblem& problem, bool exactly, Facts& facts) {
   }
 }
 
-// Exactly: over rationals, where bounds do not decide. Besides: nothing that an answer should not wait for, as
-// an A that factors do without.
-Facts FactsOf(const AnyProblem& problem, bool exactly, bool besides) {
-  Facts facts;
-  facts.asymmetry = LargestAsymmetry(problem);
-  if (problem.factors() != nullptr) {
-    facts.semidefinite = true;
-  } else {
-    DecideCurvature(problem, exactly, facts);
-  }
+void FindRange(const AnyProblem& problem, bool exactly, bool besides, Facts& facts) {
   const bool by_factors = problem.factors() != nullptr && IsInRangeByFactors(*problem.factors());
   const bool forms_A = besides ? !by_factors && !StaysSparse(problem) : problem.rows() <= kMostDenseRows;
-  facts.regular = forms_A && IsRegularModuloPrime(problem);
+  facts.regular = facts.curvature.least.value_or(0) > 0 || (forms_A && IsRegularModuloPrime(problem));
   if (by_factors || facts.regular) {
     facts.in_range = true;
   } else if (exactly) {
     const auto decision = DecideRange(problem.dense().A, problem.b());
     if (const auto* outside = std::get_if<Obstacle>(&decision)) facts.outside = *outside;
     facts.in_range = !facts.outside;
+  }
+}
+
+// Exactly: over rationals, where bounds do not decide. Besides: nothing that an answer should not wait for, as
+// an A that factors do without. What is not found before somebody says stop (corpus/stop.h) is not decided.
+Facts FactsOf(const AnyProblem& problem, bool exactly, bool besides) {
+  Facts facts;
+  facts.asymmetry = LargestAsymmetry(problem);
+  try {
+    if (problem.factors() != nullptr) {
+      facts.semidefinite = true;
+    } else {
+      DecideCurvature(problem, exactly, facts);
+    }
+    FindRange(problem, exactly, besides, facts);
+  } catch (const Stopped&) {
   }
   return facts;
 }
@@ -290,15 +298,19 @@ Json FailedAssumptions(const AnyProblem& problem) {
   } else if (facts.negative) {
     add("psd", {{"quotient", facts.curvature.most}, {"witness", "certify --claim psd"}});
   } else if (!facts.semidefinite) {
-    add("psd", {{"undecided", "zero is within the bounds of an eigenvalue"}});
+    add("psd", {{"undecided", Stop::IsAsked() ? kStopped : "zero is within the bounds of an eigenvalue"}});
   }
-  if (!facts.in_range) add("in-range", {{"undecided", "A may be singular"}});
+  if (!facts.in_range) add("in-range", {{"undecided", Stop::IsAsked() ? kStopped : "A may be singular"}});
   if (!facts.outside) return failed;
   add("in-range", by("y", *facts.outside));
   // (H), which b in range(A) implies for a symmetric A, decided in the plane.
   if (problem.dimension() == 3 || HasSlidingContact(problem)) return failed;
-  const auto hypothesis = DecideHypothesis(problem);
-  if (const auto* shown = std::get_if<Obstacle>(&hypothesis)) add("h", by("v", *shown));
+  try {
+    const auto hypothesis = DecideHypothesis(problem);
+    if (const auto* shown = std::get_if<Obstacle>(&hypothesis)) add("h", by("v", *shown));
+  } catch (const Stopped&) {
+    add("h", {{"undecided", kStopped}});
+  }
   return failed;
 }
 

@@ -2,7 +2,11 @@
 #include "certify/request/rest.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "certify/exact/bodies.h"
 #include "certify/exact/interval.h"
@@ -10,6 +14,7 @@
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
+#include "solver/problem/row_scale.h"
 #include "solver/problem/units.h"
 #include "solver/solve.h"
 
@@ -53,10 +58,111 @@ void PreferLessMotion(const AnyProblem& problem, const Request& request, ExactAn
   answer.word.clear();
 }
 
+// By how much f is outside of the cone of a contact, in forces of `row` on.
+double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int row, int rows) {
+  if (contact.kind == ContactKind::kBilateral) return 0;
+  const double beyond = rows > 1 ? TangentLength(f, row, rows) - Limit(contact.mu, f[row]) : 0.0;
+  return std::max(-f[row], beyond);
+}
+
+// -inv(A) b where A is clearly regular, otherwise empty: the only forces that leave no acceleration.
+Eigen::VectorXd OnlyBalance(const ContactProblem<double>& problem, bool is_symmetric) {
+  constexpr double kRegular = 1e-6;
+  if (!is_symmetric) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(problem.A);
+    return factors.rcond() > kRegular ? Eigen::VectorXd(-factors.solve(problem.b)) : Eigen::VectorXd();
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
+  const Eigen::VectorXd pivots = factors.vectorD();
+  return pivots.minCoeff() > kRegular * pivots.maxCoeff() ? Eigen::VectorXd(-factors.solve(problem.b))
+                                                          : Eigen::VectorXd();
+}
+
+// The same without friction: forces x >= 0 along the edges of the cones, in space of octagons around them.
+struct AlongCones {
+  explicit AlongCones(const ContactProblem<double>& problem) {
+    constexpr int kSides = 8;
+    const double around = 1 / std::cos(std::numbers::pi / kSides);
+    ForEachContact(problem, [&](int i, int row, int rows) {
+      const Contact<double>& contact = problem.contacts[i];
+      const int edges = rows == 1 || contact.mu == 0 ? 1 : rows == 2 ? 2 : kSides;
+      for (int k = 0; k < edges; ++k) {
+        Eigen::VectorXd edge = Eigen::VectorXd::Unit(problem.rows(), row);
+        const double angle = 2 * std::numbers::pi * k / kSides;
+        if (edges == 2) edge[row + 1] = k == 0 ? contact.mu : -contact.mu;
+        if (edges == kSides) edge.segment(row + 1, 2) << std::cos(angle), std::sin(angle);
+        if (edges == kSides) edge.segment(row + 1, 2) *= contact.mu * around;
+        E.conservativeResize(problem.rows(), E.cols() + 1);
+        E.rightCols(1) = edge;
+        const bool is_held = contact.kind == ContactKind::kBilateral;
+        pushing.contacts.push_back({is_held ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}});
+      }
+    });
+    pushing.A = E.transpose() * problem.A * E;
+    pushing.b = E.transpose() * problem.b;
+  }
+
+  Eigen::MatrixXd E;
+  ContactProblem<double> pushing;
+};
+
+// What forces in the cones leave of b at least, by row; zero where doubles do not tell. Where A is
+// semidefinite, those along the edges that push and never pull leave the least, and all of them the same.
+Eigen::VectorXd LeftAtLeast(const ContactProblem<double>& problem, bool is_symmetric) {
+  constexpr int kFewRows = 4 * kQuickRows;
+  constexpr double kRounding = 1e-9;
+  const Eigen::VectorXd unknown = Eigen::VectorXd::Zero(problem.rows());
+  if (problem.rows() > kFewRows) return unknown;
+  const Eigen::VectorXd f = problem.A.completeOrthogonalDecomposition().solve(problem.b);
+  const Eigen::VectorXd left = problem.b - problem.A * f;
+  if (!is_symmetric || left.cwiseAbs().maxCoeff() > kRounding) return left;
+  const Eigen::VectorXd pivots = Eigen::LDLT<Eigen::MatrixXd>(problem.A).vectorD();
+  if (pivots.minCoeff() < -kRounding * pivots.maxCoeff()) return unknown;
+  const AlongCones along(problem);
+  const Answer<double> answer = Solve(along.pushing, {.method = "fast"});
+  return answer.Solved() ? Eigen::VectorXd(problem.A * (along.E * answer.f) + problem.b) : unknown;
+}
+
+// Whether doubles tell that no group of contacts that moves has forces under which it rests: the only ones that
+// leave no acceleration are clearly outside of their cones, or all in their cones clearly leave some.
+bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) {
+  constexpr double kClearly = 1e-6;
+  const bool is_open = std::ranges::any_of(given.contacts, [](const auto& contact) {
+    return contact.kind == ContactKind::kSliding || !std::isfinite(contact.mu);
+  });
+  if (is_open || given.rows() == 0) return false;
+  const ContactProblem<double> problem = Scaled(given, FindScale(given));  // b of each group is about 1
+  const bool is_symmetric = problem.A == problem.A.transpose();
+  const Eigen::VectorXd f = OnlyBalance(problem, is_symmetric);
+  const Eigen::VectorXd left = f.size() == 0 ? LeftAtLeast(problem, is_symmetric) : f;
+  if (!left.allFinite()) return false;
+  Groups groups;
+  groups.Find(problem);
+  std::vector<char> moves(problem.contacts.size(), false), leaves = moves;
+  const double clear = f.size() == 0 ? kClearly : kClearly * f.cwiseAbs().maxCoeff();
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    const int group = groups.Of(i);
+    for (int k = row; k < row + rows; ++k) moves[group] |= moving[k] != 0;
+    const double misses = f.size() == 0 ? left.segment(row, rows).cwiseAbs().maxCoeff()
+                                        : OutsideCone(problem.contacts[i], f, row, rows);
+    leaves[group] |= misses > clear;
+  });
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (moves[i] && !leaves[i]) return false;
+  return true;
+}
+
+bool CannotRest(const AnyProblem& problem, const ExactAnswer& answer) try {
+  return CannotRest(Rounded<double>(problem), Accelerations(problem, answer.f));
+} catch (const InputError&) {  // doubles do not hold the problem
+  return false;
+}
+
 }  // namespace
 
 void PreferRest(const AnyProblem& problem, const Request& request, ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
+  if (request.arithmetic == Arithmetic::kFiltered && CannotRest(problem, answer)) return;
   auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
   if (!rest) return PreferLessMotion(problem, request, answer);
   answer.f = std::move(rest->f);
@@ -81,39 +187,6 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
     if (moves) moving[i] = answer.a[i];
   }
   return moving;
-}
-
-// By how much f is outside of the cone of a contact, in forces of `row` on.
-double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int row, int rows) {
-  if (contact.kind == ContactKind::kBilateral) return 0;
-  const double beyond = rows > 1 ? TangentLength(f, row, rows) - Limit(contact.mu, f[row]) : 0.0;
-  return std::max(-f[row], beyond);
-}
-
-// Whether doubles tell that no group of contacts that moves has forces under which it rests: A is regular, so
-// there are no others than -inv(A) b, and those are clearly outside of their cones.
-bool CannotRest(const ContactProblem<double>& problem, const ExactVector& moving) {
-  constexpr double kRegular = 1e-6, kClearly = 1e-6;
-  const bool slides = std::ranges::any_of(
-      problem.contacts, [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
-  if (slides || problem.A != problem.A.transpose()) return false;
-  const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
-  const Eigen::VectorXd pivots = factors.vectorD();
-  if (pivots.size() == 0 || !(pivots.minCoeff() > kRegular * pivots.maxCoeff())) return false;
-  const Eigen::VectorXd f = -factors.solve(problem.b);
-  if (!f.allFinite()) return false;
-  Groups groups;
-  groups.Find(problem);
-  std::vector<char> moves(problem.contacts.size(), false), leaves = moves;
-  const double clear = kClearly * f.cwiseAbs().maxCoeff();
-  ForEachContact(problem, [&](int i, int row, int rows) {
-    const int group = groups.Of(i);
-    for (int k = row; k < row + rows; ++k) moves[group] |= moving[k] != 0;
-    leaves[group] |= OutsideCone(problem.contacts[i], f, row, rows) > clear;
-  });
-  for (std::size_t i = 0; i < moves.size(); ++i)
-    if (moves[i] && !leaves[i]) return false;
-  return true;
 }
 
 }  // namespace

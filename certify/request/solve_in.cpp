@@ -3,13 +3,21 @@
 
 #include "certify/exact/inexact.h"
 #include "certify/request/cascade.h"
+#include "corpus/stop.h"
 
 namespace stiction {
 namespace {
 
-Solution SolvePosed(Posed posed, const Request& request) {
+Solution SolvePosed(Posed posed, const Request& request) try {
   RequireReading(posed.dimension(), request);
+  const Stop stop(request.limits.stop);
   return request.method == kAutomatic ? SolveInTurn(posed, request) : SolveNamed(posed, request);
+} catch (const Stopped&) {
+  InexactAnswer none;
+  none.method = request.method;
+  none.arithmetic = request.arithmetic;
+  none.reason = kStopped;
+  return {.answer = std::move(none)};
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "corpus/stop_reading.h"
+#include "corpus/stop.h"
 #include "solver/problem/check.h"
 
 #ifndef STICTION_BOOST_RATIONALS
-#include <flint/fmpq_mat.h>
+#include "corpus/lifting.h"
 #endif
 
 namespace stiction {
@@ -23,7 +23,7 @@ using Matrix = ExactProblem::Matrix;
 bool EliminateRows(Matrix& M, Matrix& R) {
   const int size = static_cast<int>(M.rows());
   for (int k = 0; k < size; ++k) {
-    StopReading::Check();
+    Stop::Check();
     const Rational pivot = M(k, k);
     if (pivot <= 0) return false;
     M.row(k) /= pivot;
@@ -74,31 +74,6 @@ bool IsProvedIndefinite(const Matrix& M, const Eigen::MatrixXd& rounded) {
   return x.dot(y) <= 0;
 }
 
-#ifndef STICTION_BOOST_RATIONALS
-class FlintMatrix {
- public:
-  FlintMatrix(int rows, int columns) { fmpq_mat_init(matrix_, rows, columns); }
-  explicit FlintMatrix(const Matrix& M) : FlintMatrix(static_cast<int>(M.rows()), static_cast<int>(M.cols())) {
-    for (int i = 0; i < M.rows(); ++i) {
-      for (int j = 0; j < M.cols(); ++j) fmpq_set_mpq(fmpq_mat_entry(matrix_, i, j), M(i, j).get_mpq_t());
-    }
-  }
-  FlintMatrix(const FlintMatrix&) = delete;
-  FlintMatrix& operator=(const FlintMatrix&) = delete;
-  ~FlintMatrix() { fmpq_mat_clear(matrix_); }
-
-  fmpq_mat_struct* get() { return matrix_; }
-  Rational At(int i, int j) const {
-    Rational x;
-    fmpq_get_mpq(x.get_mpq_t(), fmpq_mat_entry(matrix_, i, j));
-    return x;
-  }
-
- private:
-  fmpq_mat_t matrix_;
-};
-#endif
-
 }  // namespace
 
 std::optional<Matrix> InverseOfDefinite(const Matrix& M) {
@@ -131,16 +106,19 @@ Matrix SolveDefinite(const Matrix& M, const Matrix& B) {
 
 #else
 
-// Columns by themselves, so that somebody may stop between them; together they would take about as long.
 Matrix SolveDefinite(const Matrix& M, const Matrix& B) {
-  FlintMatrix of(M);
-  Matrix X(B.rows(), B.cols());
-  for (int j = 0; j < B.cols(); ++j) {
-    StopReading::Check();
-    FlintMatrix right(B.col(j)), x(static_cast<int>(B.rows()), 1);
-    STICTION_CHECK(fmpq_mat_solve(x.get(), of.get(), right.get()) != 0, "a block of masses that is singular");
-    for (int i = 0; i < B.rows(); ++i) X(i, j) = x.At(i, 0);
-  }
+  const int size = static_cast<int>(M.rows());
+  IntegerVector scale;
+  const IntegerRows A = InIntegers(M, scale);
+  std::vector<std::vector<Rational> > right(B.cols());
+  for (int j = 0; j < B.cols(); ++j)
+    for (int i = 0; i < size; ++i) right[j].emplace_back(B(i, j) * scale[i]);
+  std::optional<std::vector<CommonFractions> > columns;
+  for (int prime = 0; !columns; ++prime) columns = SolveLifted(A, right, LiftingPrime(prime));
+  Matrix X(size, B.cols());
+  for (int j = 0; j < B.cols(); ++j)
+    for (int i = 0; i < size; ++i)
+      X(i, j) = Fractions<Rational>::Quotient((*columns)[j].numerators[i], (*columns)[j].denominator);
   return X;
 }
 

@@ -17,11 +17,17 @@
 // Redundant    bilateral constraints (A_BB singular) rest at zero force: over exact scalars those whose columns
 //              depend on the ones before. For A symmetric positive semidefinite they change nothing: A_BB y = 0
 //              implies A y = 0. b outside of range(A) shows as y'b /= 0.
-// Forces       f = E x + e, x the forces of the reduced problem.
+// Exchanged    (where it is allowed) is a frictionless contact whose row and column the rest of a singular A_BB
+//              acts on: its acceleration takes the place of its force among the variables, and its force that
+//              of its acceleration, as in a principal pivot transform; so does one for each that A_BB lacks. It
+//              is a frictionless contact again, and A' is semidefinite where A is, in whatever units bilateral
+//              rows are. Diode bridges and linear programs are such problems.
+// Forces       f = E x + e, x the forces of the reduced problem, of exchanged contacts their accelerations.
 // Cost         rows^2 times the bilateral ones.
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -37,6 +43,8 @@ enum class ReductionEnd : std::uint8_t {
   kInconsistent,  // no forces at all keep the bilateral constraints: there is no solution
   kSingular,      // A_BB is singular and not decoupled from the rest: A is not symmetric, or not semidefinite
 };
+
+enum class Exchanges : bool { kNone, kAllowed };
 
 // Why a problem could not be reduced; empty if it could.
 inline constexpr std::string_view Reason(ReductionEnd end) {
@@ -60,7 +68,8 @@ class Reduction {
 
   // Inexact scalars: pivots below tolerances.pivot of the largest entry are zero, accelerations below
   // tolerances.acceleration of the largest.
-  explicit Reduction(const Problem& problem, const Tolerances& tolerances = {});
+  explicit Reduction(const Problem& problem, const Tolerances& tolerances = {},
+                     Exchanges exchanges = Exchanges::kNone);
 
   // Whether a problem has anything to reduce.
   static bool Concerns(const Problem& problem);
@@ -68,6 +77,10 @@ class Reduction {
   ReductionEnd end() const { return end_; }
   // Frictionless and static contacts in the order of the full problem; meaningful if kReduced.
   const Problem& problem() const { return reduced_; }
+  // Whether forces and accelerations of some contacts have changed places.
+  bool HasExchanges() const {
+    return std::find(exchanged_.begin(), exchanged_.end(), true) != exchanged_.end();
+  }
   // Row of the full problem for each row of the reduced one.
   const std::vector<int>& row_of() const { return row_of_; }
   // Contact of the full problem for each of the reduced one.
@@ -92,16 +105,18 @@ class Reduction {
  private:
   void Sort(const Problem& problem);
   void ReplaceSlidingFriction(const Problem& problem);
-  void EliminateBilateral(const Tolerances& tolerances);
+  void EliminateBilateral(const Tolerances& tolerances, Exchanges exchanges);
   std::vector<int> SolveBilateral(Matrix& T, const Scalar& zero) const;
+  void Exchange(Matrix& A, Vector& b, std::vector<int>& determines, const Scalar& zero);
   ReductionEnd Classify(const Matrix& A, const Vector& b, const std::vector<int>& determines,
                         const Scalar& zero, const Scalar& zero_acceleration) const;
 
   ReductionEnd end_ = ReductionEnd::kReduced;
   Problem reduced_;
   std::vector<int> row_of_, contact_of_;
-  std::vector<int> bilateral_;  // rows
-  Matrix M_;                    // rows x (reduced rows, bilateral rows): A with sliding friction replaced
+  std::vector<int> bilateral_;   // rows
+  std::vector<bool> exchanged_;  // by row of the reduced problem
+  Matrix M_;                     // rows x (reduced rows, bilateral rows): A with sliding friction replaced
   Vector b_;
   Matrix E_;
   Vector e_;

@@ -18,10 +18,10 @@ bool Reduction<Scalar>::Concerns(const Problem& problem) {
 }
 
 template <class Scalar>
-Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerances) {
+Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerances, Exchanges exchanges) {
   Sort(problem);
   ReplaceSlidingFriction(problem);
-  EliminateBilateral(tolerances);
+  EliminateBilateral(tolerances, exchanges);
 }
 
 // Which rows remain, and the contacts that they make up.
@@ -98,7 +98,7 @@ std::vector<int> Reduction<Scalar>::SolveBilateral(Matrix& T, const Scalar& zero
 
 // x_B = X x_U + x0, zero where a constraint is redundant. Then rows U of M (x_U, x_B) + b are the problem.
 template <class Scalar>
-void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances) {
+void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances, Exchanges exchanges) {
   const int count = static_cast<int>(bilateral_.size()), kept = static_cast<int>(row_of_.size());
   Scalar zero(0), zero_acceleration(0);
   if constexpr (!kIsExact<Scalar>) {
@@ -114,7 +114,7 @@ void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances) {
     T.row(i).head(kept + count) = M_.row(bilateral_[i]);
     T(i, kept + count) = b_[bilateral_[i]];
   }
-  const std::vector<int> determines = SolveBilateral(T, zero);
+  std::vector<int> determines = SolveBilateral(T, zero);
   const int rank = static_cast<int>(determines.size());
   Matrix X = Matrix::Constant(count, kept + count, Scalar(0));  // of x_U, and of redundant forces
   Vector x0 = Vector::Constant(count, Scalar(0));
@@ -126,16 +126,86 @@ void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances) {
   }
   Matrix A = M_.rightCols(count) * X;
   A.leftCols(kept) += M_.leftCols(kept);
-  const Vector b = b_ + M_.rightCols(count) * x0;
+  Vector b = b_ + M_.rightCols(count) * x0;
+  e_ = E_.rightCols(count) * x0;
+  Matrix E = E_.rightCols(count) * X;
+  E.leftCols(kept) += E_.leftCols(kept);
+  E_ = std::move(E);
+  exchanged_.assign(kept, false);
+  if (exchanges == Exchanges::kAllowed) Exchange(A, b, determines, zero);
   end_ = Classify(A, b, determines, zero, zero_acceleration);
   reduced_.A.resize(kept, kept);
   reduced_.b.resize(kept);
   for (int i = 0; i < kept; ++i) {
-    reduced_.A.row(i) = A.row(row_of_[i]).head(kept);
-    reduced_.b[i] = b[row_of_[i]];
+    const int row = row_of_[i];
+    reduced_.A.row(i) = exchanged_[i] ? E_.row(row).head(kept) : A.row(row).head(kept);
+    reduced_.b[i] = exchanged_[i] ? e_[row] : b[row];
   }
-  e_ = E_.rightCols(count) * x0;
-  E_ = (E_.leftCols(kept) + E_.rightCols(count) * X.leftCols(kept)).eval();
+  E_ = E_.leftCols(kept).eval();  // redundant forces rest at zero
+}
+
+// The candidate whose value is not zero: over exact scalars the first, otherwise that of the largest; -1: none.
+template <class Scalar, class ValueOf>
+int PivotAmong(const std::vector<int>& candidates, const Scalar& zero, ValueOf value_of) {
+  int best = -1;
+  for (const int candidate : candidates) {
+    const bool found = best >= 0 && (kIsExact<Scalar> || !(Abs(value_of(candidate)) > Abs(value_of(best))));
+    if (!found && Sign(value_of(candidate), zero) != 0) best = candidate;
+  }
+  return best;
+}
+
+// Of a = A x + b, f = E x + e with x the reduced forces and then the redundant ones: a_r = 0 of a bilateral row
+// tells x_k of a frictionless contact, and a_k a redundant x_c, whose place a_k takes, as k.
+template <class Scalar>
+void Reduction<Scalar>::Exchange(Matrix& A, Vector& b, std::vector<int>& determines, const Scalar& zero) {
+  const int kept = static_cast<int>(row_of_.size());
+  std::vector<int> redundant, frictionless;  // columns
+  for (int j = 0; j < static_cast<int>(bilateral_.size()); ++j)
+    if (std::find(determines.begin(), determines.end(), j) == determines.end()) redundant.push_back(kept + j);
+  ForEachContact(reduced_, [&](int i, int row, int) {
+    if (reduced_.contacts[i].kind == ContactKind::kFrictionless) frictionless.push_back(row);
+  });
+  const auto row_of = [&](int k) {
+    return PivotAmong(bilateral_, zero, [&](int row) { return Scalar(A(row, k)); });
+  };
+  const auto column_of = [&](int k) {
+    return PivotAmong(redundant, zero, [&](int column) { return Scalar(A(row_of_[k], column)); });
+  };
+  // x_column = (x_k - the rest of the row) / its pivot
+  const auto substitute = [&](int row, int column, int k, const Scalar& of_k) {
+    const Scalar pivot = A(row, column), constant = -b[row] / pivot;
+    Vector values = -A.row(row).transpose() / pivot;
+    values[column] = Scalar(0);
+    if (of_k != 0) values[k] = of_k / pivot;
+    const auto into = [&](Matrix& M, Vector& m) {
+      for (int i = 0; i < M.rows(); ++i) {
+        const Scalar factor = M(i, column);
+        if (Sign(factor) == 0) continue;
+        M(i, column) = Scalar(0);
+        M.row(i) += factor * values.transpose();
+        m[i] += factor * constant;
+      }
+    };
+    into(A, b);
+    into(E_, e_);
+  };
+  while (!redundant.empty()) {
+    const int k = PivotAmong(frictionless, Scalar(0), [&](int at) {
+      const int row = row_of(at), column = column_of(at);
+      return row < 0 || column < 0 ? Scalar(0) : Scalar(A(row, at) * A(row_of_[at], column));
+    });
+    if (k < 0) return;
+    const int row = row_of(k), column = column_of(k);
+    substitute(row, k, k, Scalar(0));
+    A.row(row).setConstant(Scalar(0));
+    b[row] = Scalar(0);
+    substitute(row_of_[k], column, k, Scalar(1));
+    exchanged_[k] = true;
+    determines.push_back(column - kept);
+    std::erase(redundant, column);
+    std::erase(frictionless, k);
+  }
 }
 
 // A, b: accelerations as functions of the reduced forces and then of the redundant ones. The bilateral ones

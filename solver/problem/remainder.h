@@ -27,8 +27,10 @@ class Remainder {
   using Vector = typename Problem::Vector;
 
   // Keeps a reference: `whole` must outlive it.
-  explicit Remainder(const Problem& whole, const Tolerances& tolerances = {}) : whole_(whole) {
-    if (Reduction<Scalar>::Concerns(whole)) reduction_.emplace(whole, tolerances);
+  explicit Remainder(const Problem& whole, const Tolerances& tolerances = {},
+                     Exchanges exchanges = Exchanges::kNone)
+      : whole_(whole) {
+    if (Reduction<Scalar>::Concerns(whole)) reduction_.emplace(whole, tolerances, exchanges);
   }
 
   const Problem& whole() const { return whole_; }
@@ -50,7 +52,8 @@ class Remainder {
   std::vector<IndexSet> Sets(std::vector<IndexSet> sets, IndexSet bilateral) const {
     return reduction_ ? reduction_->Spread(sets, bilateral, IndexSet::kNone) : sets;
   }
-  // The letters of all contacts from those of problem(), one each; a bilateral one is always held, '='.
+  // The letters of all contacts from those of problem(), one each; a bilateral one is always held, '='. None
+  // where contacts are exchanged.
   std::string Word(const std::string& word) const;
 
   // A step of a run on problem().
@@ -75,6 +78,7 @@ std::string WholeWord(const Contacts& contacts, const std::string& word) {
 
 template <class Scalar>
 std::string Remainder<Scalar>::Word(const std::string& word) const {
+  if (reduction_ && reduction_->HasExchanges()) return {};
   return reduction_ ? WholeWord(whole_.contacts, word) : word;
 }
 

@@ -5,6 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "certify/exact/bounds.h"
+#include "certify/exact/linear_system.h"
+#include "corpus/lifting.h"
+#include "corpus/stop.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -103,6 +107,29 @@ TEST_CASE("semidefinite: of an asymmetric matrix x'Ax decides, which is that of 
     const auto decision = DecideSemidefinite(A);
     if (const auto* witness = std::get_if<Obstacle>(&decision)) CheckCurvature(A, *witness);
   }
+}
+
+TEST_CASE("range: an entry that a prime of lifting divides hides nothing") {
+  const Rational prime(mpz_class(LiftingPrime(0)));
+  const auto inside = DecideRange(Matrix({{prime, 0}, {0, 1}}), Vector({1, 1}));
+  REQUIRE(std::holds_alternative<ExactVector>(inside));
+  CHECK(std::get<ExactVector>(inside) == Vector({1 / prime, 1}));
+  const auto outside = DecideRange(Matrix({{prime, prime}, {1, 1}}), Vector({1, 1}));
+  REQUIRE(std::holds_alternative<Obstacle>(outside));
+  CHECK(std::get<Obstacle>(outside).x == Vector({1, -prime}));
+}
+
+TEST_CASE("properties: all of them end when somebody says so") {
+  const std::atomic<bool> stopped = true;
+  const Stop stop(&stopped);
+  const ExactProblem problem = ReferenceProblem();
+  CHECK_THROWS_AS(DecideSemidefinite(problem.A), Stopped);
+  CHECK_THROWS_AS(DecideRange(problem.A, problem.b), Stopped);
+  CHECK_THROWS_AS(IsRegularModuloPrime(problem), Stopped);
+  CHECK_THROWS_AS(BoundRangeDistance(problem), Stopped);
+  LinearSystem system{{false}, {{{1}, -1, Relation::kZero}}};
+  CHECK_THROWS_AS(Solve(system), Stopped);
+  CHECK_THROWS_AS(Minimize({{2}}, {-1}), Stopped);
 }
 
 TEST_CASE("range: A x = b, or y'A = 0 and y'b /= 0, of every matrix and vector") {

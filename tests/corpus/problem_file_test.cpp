@@ -22,7 +22,7 @@
 #include "corpus/formats/read_problem.h"
 #include "corpus/json.h"
 #include "corpus/record/definite_block.h"
-#include "corpus/stop_reading.h"
+#include "corpus/stop.h"
 #include "solver/problem/check.h"
 
 namespace stiction {
@@ -463,9 +463,9 @@ TEST_CASE("problem file: a large block of masses is definite or refused, whateve
 TEST_CASE("problem file: the exact arithmetic of reading ends when somebody says so") {
   const std::atomic<bool> stopped = true, goes_on = false;
   {
-    const StopReading stop(stopped);
-    CHECK_THROWS_AS(ParseProblem(WithLargeBlock(20, "2"), "p.json"), ReadingStopped);
-    const StopReading inner(goes_on);
+    const Stop stop(&stopped);
+    CHECK_THROWS_AS(ParseProblem(WithLargeBlock(20, "2"), "p.json"), Stopped);
+    const Stop inner(&goes_on);
     CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));
   }
   CHECK_NOTHROW(ParseProblem(WithLargeBlock(20, "2"), "p.json"));

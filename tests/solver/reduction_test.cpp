@@ -64,6 +64,30 @@ TEST_CASE("a singular bilateral block that acts on other contacts is refused") {
   CHECK(Reduction<double>(InDoubles(problem)).end() == ReductionEnd::kSingular);
 }
 
+// a0 = f1 - 3, a1 = -f0 + 4 f1 - 1, a2 = f2 + f0 - 2, a0 = 0: f1 = 3, f0 = 11 - a1, f2 = a2 - 9 + a1.
+TEST_CASE("where it is allowed a frictionless contact changes its force for its acceleration") {
+  ExactProblem problem = MakeProblem({-1, -1, -1}, {{0, 1, 0}, {-1, 4, 0}, {1, 0, 1}}, {-3, -1, -2});
+  problem.contacts[0].kind = ContactKind::kBilateral;
+  CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kSingular);
+  const Reduction<Rational> reduction(problem, {}, Exchanges::kAllowed);
+  REQUIRE(reduction.end() == ReductionEnd::kReduced);
+  CHECK(reduction.HasExchanges());
+  CHECK(reduction.problem().A == Matrix({{0, 0}, {-1, 1}}));
+  CHECK(reduction.problem().b == Vector({3, 9}));
+  const ExactVector f = reduction.Forces(Vector({2, 5}));
+  CHECK(f == Vector({9, 3, 5}));
+  CHECK(problem.A * f + problem.b == Vector({0, 2, 12}));
+  const Reduction<double> rounded(InDoubles(problem), {}, Exchanges::kAllowed);
+  REQUIRE(rounded.end() == ReductionEnd::kReduced);
+  CHECK(rounded.Forces(Eigen::Vector2d(2, 5)) == Eigen::Vector3d(9, 3, 5));
+  problem.contacts[1].kind = ContactKind::kStatic;  // with friction there is no other side to change to
+  problem.contacts[1].mu = 1;
+  problem.A = ExactMatrix::Identity(4, 4);
+  problem.A.topRows(2) = Matrix({{0, 1, 0, 0}, {-1, 4, 0, 0}});
+  problem.b = Vector({-3, -1, 0, 0});
+  CHECK(Reduction<Rational>(problem, {}, Exchanges::kAllowed).end() == ReductionEnd::kSingular);
+}
+
 TEST_CASE("6: the rod that slides: none, one or two solutions") {
   // Uniform rod, m = 1, half length 1, tan of the angle 2, friction coefficient 2: aN = -4/5 fN + bN.
   ExactProblem rod =
