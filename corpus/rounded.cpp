@@ -17,7 +17,7 @@ template <class Scalar>
 bool Holds(const Rational& exact, Scalar x) {
   if (!std::isfinite(x)) return false;
   const bool is_normal = std::abs(x) >= std::numeric_limits<Scalar>::min();
-  return is_normal || Rational(static_cast<double>(x)) == exact;
+  return is_normal || (x == 0 && Sign(exact) == 0) || Rational(static_cast<double>(x)) == exact;
 }
 
 // `path`(): where the number stands.

@@ -157,9 +157,18 @@ bool IsBetter(const Solution& told, const Best& best) {
   return one->errors && (!other->errors || one->errors->Largest() < other->errors->Largest());
 }
 
+// Null where doubles do not hold the problem.
+const ContactProblem<double>* DoublesOf(Posed& posed) try {
+  return &posed.doubles();
+} catch (const InputError&) {
+  return nullptr;
+}
+
 void PreferRestIn(Posed& posed, const Request& request, Solution& solution) {
-  if (auto* exact = std::get_if<ExactAnswer>(&solution.answer))
-    return PreferRest(posed.file(), request, *exact);
+  if (auto* exact = std::get_if<ExactAnswer>(&solution.answer)) {
+    const auto* rounded = request.arithmetic == kFiltered ? DoublesOf(posed) : nullptr;
+    return PreferRest(posed.file(), rounded, request, *exact);
+  }
   auto& answer = std::get<InexactAnswer>(solution.answer);
   const auto file = [&posed]() -> const AnyProblem& { return posed.file(); };
   if (request.arithmetic != kFloat) return PreferRest(posed.doubles(), file, request, answer);

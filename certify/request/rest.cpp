@@ -65,19 +65,6 @@ double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int
   return std::max(-f[row], beyond);
 }
 
-// -inv(A) b where A is clearly regular, otherwise empty: the only forces that leave no acceleration.
-Eigen::VectorXd OnlyBalance(const ContactProblem<double>& problem, bool is_symmetric) {
-  constexpr double kRegular = 1e-6;
-  if (!is_symmetric) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(problem.A);
-    return factors.rcond() > kRegular ? Eigen::VectorXd(-factors.solve(problem.b)) : Eigen::VectorXd();
-  }
-  const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
-  const Eigen::VectorXd pivots = factors.vectorD();
-  return pivots.minCoeff() > kRegular * pivots.maxCoeff() ? Eigen::VectorXd(-factors.solve(problem.b))
-                                                          : Eigen::VectorXd();
-}
-
 // The same without friction: forces x >= 0 along the edges of the cones, in space of octagons around them.
 struct AlongCones {
   explicit AlongCones(const ContactProblem<double>& problem) {
@@ -106,21 +93,40 @@ struct AlongCones {
   ContactProblem<double> pushing;
 };
 
-// What forces in the cones leave of b at least, by row; zero where doubles do not tell. Where A is
-// semidefinite, those along the edges that push and never pull leave the least, and all of them the same.
-Eigen::VectorXd LeftAtLeast(const ContactProblem<double>& problem, bool is_symmetric) {
+// What doubles tell of forces in their cones that leave no acceleration.
+struct Balance {
+  Eigen::VectorXd only;  // the only such forces, in or out of their cones; or empty
+  Eigen::VectorXd left;  // what all forces in the cones leave at least, by row; or empty
+};
+
+// Of forces along the edges those that push and never pull leave the least where A is semidefinite.
+Balance BalanceOf(const ContactProblem<double>& problem) {
   constexpr int kFewRows = 4 * kQuickRows;
-  constexpr double kRounding = 1e-9;
-  const Eigen::VectorXd unknown = Eigen::VectorXd::Zero(problem.rows());
-  if (problem.rows() > kFewRows) return unknown;
-  const Eigen::VectorXd f = problem.A.completeOrthogonalDecomposition().solve(problem.b);
-  const Eigen::VectorXd left = problem.b - problem.A * f;
-  if (!is_symmetric || left.cwiseAbs().maxCoeff() > kRounding) return left;
-  const Eigen::VectorXd pivots = Eigen::LDLT<Eigen::MatrixXd>(problem.A).vectorD();
-  if (pivots.minCoeff() < -kRounding * pivots.maxCoeff()) return unknown;
+  constexpr double kRegular = 1e-6, kRounding = 1e-9;
+  const auto left_by = [&problem](const Eigen::VectorXd& f) -> Eigen::VectorXd {
+    return problem.A * f + problem.b;
+  };
+  const auto least_of_all = [&]() -> Eigen::VectorXd {
+    if (problem.rows() > kFewRows) return {};
+    return left_by(-problem.A.completeOrthogonalDecomposition().solve(problem.b));
+  };
+  if (problem.A != problem.A.transpose()) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(problem.A);
+    if (factors.rcond() > kRegular) return {-factors.solve(problem.b), {}};
+    return {{}, least_of_all()};
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
+  const Eigen::VectorXd pivots = factors.vectorD(), f = -factors.solve(problem.b);
+  if (pivots.minCoeff() > kRegular * pivots.maxCoeff()) return {f, {}};
+  if (!(left_by(f).cwiseAbs().maxCoeff() <= kRounding)) {
+    Eigen::VectorXd left = least_of_all();
+    if (left.size() == 0 || left.cwiseAbs().maxCoeff() > kRounding) return {{}, std::move(left)};
+  }
+  if (problem.rows() > kFewRows || pivots.minCoeff() < -kRounding * pivots.maxCoeff()) return {};
   const AlongCones along(problem);
   const Answer<double> answer = Solve(along.pushing, {.method = "fast"});
-  return answer.Solved() ? Eigen::VectorXd(problem.A * (along.E * answer.f) + problem.b) : unknown;
+  if (!answer.Solved()) return {};
+  return {{}, left_by(along.E * answer.f)};
 }
 
 // Whether doubles tell that no group of contacts that moves has forces under which it rests: the only ones that
@@ -132,19 +138,18 @@ bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) 
   });
   if (is_open || given.rows() == 0) return false;
   const ContactProblem<double> problem = Scaled(given, FindScale(given));  // b of each group is about 1
-  const bool is_symmetric = problem.A == problem.A.transpose();
-  const Eigen::VectorXd f = OnlyBalance(problem, is_symmetric);
-  const Eigen::VectorXd left = f.size() == 0 ? LeftAtLeast(problem, is_symmetric) : f;
-  if (!left.allFinite()) return false;
+  const auto [only, left] = BalanceOf(problem);
+  const Eigen::VectorXd& found = only.size() > 0 ? only : left;
+  if (found.size() == 0 || !found.allFinite()) return false;
   Groups groups;
   groups.Find(problem);
   std::vector<char> moves(problem.contacts.size(), false), leaves = moves;
-  const double clear = f.size() == 0 ? kClearly : kClearly * f.cwiseAbs().maxCoeff();
+  const double clear = only.size() > 0 ? kClearly * only.cwiseAbs().maxCoeff() : kClearly;
   ForEachContact(problem, [&](int i, int row, int rows) {
     const int group = groups.Of(i);
     for (int k = row; k < row + rows; ++k) moves[group] |= moving[k] != 0;
-    const double misses = f.size() == 0 ? left.segment(row, rows).cwiseAbs().maxCoeff()
-                                        : OutsideCone(problem.contacts[i], f, row, rows);
+    const double misses = only.size() > 0 ? OutsideCone(problem.contacts[i], only, row, rows)
+                                          : left.segment(row, rows).cwiseAbs().maxCoeff();
     leaves[group] |= misses > clear;
   });
   for (std::size_t i = 0; i < moves.size(); ++i)
@@ -152,18 +157,14 @@ bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) 
   return true;
 }
 
-bool CannotRest(const AnyProblem& problem, const ExactAnswer& answer) try {
-  return CannotRest(Rounded<double>(problem), Accelerations(problem, answer.f));
-} catch (const InputError&) {  // doubles do not hold the problem
-  return false;
-}
-
 }  // namespace
 
-void PreferRest(const AnyProblem& problem, const Request& request, ExactAnswer& answer) {
+void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded, const Request& request,
+                ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
-  if (request.arithmetic == Arithmetic::kFiltered && CannotRest(problem, answer)) return;
-  auto rest = ForcesAtRest(problem, answer.f, Accelerations(problem, answer.f));
+  const ExactVector a = Accelerations(problem, answer.f);
+  if (a.isZero() || (rounded != nullptr && CannotRest(*rounded, a))) return;
+  auto rest = ForcesAtRest(problem, answer.f, a);
   if (!rest) return PreferLessMotion(problem, request, answer);
   answer.f = std::move(rest->f);
   answer.a = Accelerations(problem, answer.f);

@@ -10,8 +10,9 @@
 
 namespace stiction {
 
-// The word is of the solution that was found first.
-void PreferRest(const AnyProblem& problem, const Request& request, ExactAnswer& answer);
+// The word is of the solution that was found first. `rounded`: null, or what may tell that nothing rests.
+void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded, const Request& request,
+                ExactAnswer& answer);
 
 // The same of doubles: forces that rest are found exactly, and rounded. `rounded`: the problem that was solved;
 // file(): that of which it is a rounding.

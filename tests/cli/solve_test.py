@@ -138,6 +138,20 @@ class Solve(cli.TestCase):
         self.assertIn("a fold", out)
         self.assertIn("the published algorithm gives", out)
 
+    def test_when_the_time_is_up_exact_arithmetic_ends_too(self):
+        """Alone a linear program of these numbers takes minutes, as do the assumptions behind it."""
+        count = 120
+        A = [[30 if i == j else 1 / (7 + i + j) for j in range(count)] for i in range(count)]
+        file = self.file("p.json", {"dimension": 2, "contacts": [{"kind": "frictionless"}] * count, "A": A,
+                                    "b": [(i % 5 - 3) / 7 for i in range(count)]})
+        for method in ("enumerate", "ipopt", "qp"):
+            done = cli.run("solve", file, "--json", "--method", method, "--arithmetic", "exact", "--seconds", 0.3, timeout=30)
+            answer = done.json()
+            if method == "enumerate":
+                self.assertEqual((done.code, answer["outcome"], answer["reason"]), (3, "undecided", "stopped"))
+            for failed in answer["assumptions"]:
+                self.assertEqual(failed["undecided"], "stopped")
+
 
 class SingularMatrices(cli.TestCase):
     def test_bodies_are_found_of_every_semidefinite_matrix(self):
