@@ -138,7 +138,8 @@ bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) 
   });
   if (is_open || given.rows() == 0) return false;
   const ContactProblem<double> problem = Scaled(given, FindScale(given));  // b of each group is about 1
-  const auto [only, left] = BalanceOf(problem);
+  const Balance balance = BalanceOf(problem);
+  const Eigen::VectorXd &only = balance.only, &left = balance.left;
   const Eigen::VectorXd& found = only.size() > 0 ? only : left;
   if (found.size() == 0 || !found.allFinite()) return false;
   Groups groups;
