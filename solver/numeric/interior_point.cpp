@@ -11,7 +11,7 @@ namespace {
 constexpr int kSteps = 120, kIdleSteps = 20;
 constexpr double kJudgeBelow = 1e-6;  // tau from which on forces are judged
 constexpr double kLeastTau = 1e-28;
-constexpr int kPatience = 6;     // attempts after which what is loose has to do
+constexpr int kPatience = 6;  // attempts after which what is loose has to do
 constexpr double kFinishEps = 0.1, kPolishEps = 1e-4;
 constexpr int kFactorsOfCurve = 800;  // at most
 constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolishFailures = 1,
@@ -386,42 +386,33 @@ void InteriorPoint::TakeForces() {
 
 // ---- The curve -------------------------------------------------------------------------------
 
-double InteriorPoint::Way::Dot(const Way& other) const {
-  double sum = tau * other.tau;
-  for (std::size_t k = 0; k < pairs.size(); ++k) sum += pairs[k] * other.pairs[k];
-  return sum;
-}
-
-double InteriorPoint::Way::Largest() const {
-  double largest = std::abs(tau);
-  for (const double x : pairs) largest = std::max(largest, std::abs(x));
-  return largest;
-}
-
-void InteriorPoint::Way::Add(double length, const Way& other) {
-  v += length * other.v;
-  f += length * other.f;
-  for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k] += length * other.pairs[k];
-  tau += length * other.tau;
-}
-
-auto InteriorPoint::WayOfStep() -> Way {
-  Way way{dv_, df_, {}, 0};
-  ForEachPair([&way](const Pair& pair) {
-    way.pairs.push_back(pair.dx / pair.x);
-    way.pairs.push_back(pair.dy / pair.y);
+// A way from where the path is: the changes of v and f, then those of the numbers of the pairs, x and y in
+// turn, and of tau, as parts of themselves. Of the step solved last, with that of tau.
+auto InteriorPoint::WayOfStep(double tau) -> Vector {
+  Vector way(v_.size() + f_.size() + 2 * pairs_ + 1);
+  way.head(v_.size()) = dv_;
+  way.segment(v_.size(), f_.size()) = df_;
+  Eigen::Index k = v_.size() + f_.size();
+  ForEachPair([&way, &k](const Pair& pair) {
+    way[k++] = pair.dx / pair.x;
+    way[k++] = pair.dy / pair.y;
   });
+  way[k] = tau;
   return way;
 }
 
-void InteriorPoint::MoveAlong(const Way& way, double length) {
-  v_ += length * way.v;
-  f_ += length * way.f;
-  auto part = way.pairs.begin();
-  ForEachPair([&part, length](Pair& pair) {
-    pair.x *= 1 + length * *part++;
-    pair.y *= 1 + length * *part++;
+// The parts of the pairs and of tau, by which lengths and angles are measured.
+auto InteriorPoint::Relative(const Vector& way) const -> Vector { return way.tail(2 * pairs_ + 1); }
+
+void InteriorPoint::MoveAlong(const Vector& way, double length, double& tau) {
+  v_ += length * way.head(v_.size());
+  f_ += length * way.segment(v_.size(), f_.size());
+  Eigen::Index k = v_.size() + f_.size();
+  ForEachPair([&way, &k, length](Pair& pair) {
+    pair.x *= 1 + length * way[k++];
+    pair.y *= 1 + length * way[k++];
   });
+  tau *= 1 + length * way[k];
   TakeForces();
 }
 
@@ -429,17 +420,13 @@ void InteriorPoint::MoveAlong(const Way& way, double length) {
 void InteriorPoint::FollowCurve() {
   constexpr double kFirst = 0.3, kLongest = 0.8, kShortest = 1e-3;
   double tau = MeanProduct(), length = kFirst;
-  Way tangent;
+  Vector tangent;
   for (int left = kFactorsOfCurve; left > 0 && tau >= kLeastTau && !request_.limits.Stopped();) {
     const Vector v = v_, f = f_;
     const std::vector<State> states = states_;
     const double tau_before = tau;
-    const bool is_first = tangent.pairs.empty();
-    if (!is_first) {
-      const double part = length / tangent.Largest();
-      MoveAlong(tangent, part);
-      tau *= 1 + part * tangent.tau;
-    }
+    const bool is_first = tangent.size() == 0;
+    if (!is_first) MoveAlong(tangent, length / Relative(tangent).cwiseAbs().maxCoeff(), tau);
     int corrections = 0;
     double cosine = 1;
     if (!ReturnToCurve(tangent, tau, left, corrections, cosine)) {
@@ -464,10 +451,10 @@ void InteriorPoint::FollowCurve() {
 
 // Across the tangent, or at this tau where there is none yet. The tangent is that of the new point then, in the
 // direction of the old one, at first to smaller tau; `cosine` is that of the angle between the two.
-bool InteriorPoint::ReturnToCurve(Way& tangent, double& tau, int& left, int& corrections, double& cosine) {
+bool InteriorPoint::ReturnToCurve(Vector& tangent, double& tau, int& left, int& corrections, double& cosine) {
   constexpr double kClose = 0.1, kFar = 2, kPart = 0.9, kLeastDelta = 1e-13;
   constexpr int kFirstCorrections = 25, kCorrections = 8;
-  const bool is_first = tangent.pairs.empty();
+  const bool is_first = tangent.size() == 0;
   const double delta = attempt_.delta;
   double before = std::numeric_limits<double>::infinity();
   for (corrections = 1; corrections <= (is_first ? kFirstCorrections : kCorrections); ++corrections, --left) {
@@ -479,7 +466,7 @@ bool InteriorPoint::ReturnToCurve(Way& tangent, double& tau, int& left, int& cor
     if (!matrix_.Factor(D_, false)) return false;
     Aim(1, tau, false);
     if (!SolveStep()) return false;
-    Way correction = WayOfStep();
+    Vector way = WayOfStep(0);
     for (State& state : states_) {
       state.miss = state.slack_miss = 0;
       state.slip_miss = {};
@@ -487,21 +474,18 @@ bool InteriorPoint::ReturnToCurve(Way& tangent, double& tau, int& left, int& cor
     unbalanced_.setZero();
     ForEachPair([tau](Pair& pair) { pair.aim = tau * pair.weight; });
     if (!SolveStep()) return false;
-    Way along = WayOfStep();
-    along.tau = 1;
-    if (!is_first) correction.Add(-tangent.Dot(correction) / tangent.Dot(along), along);
-    const double size = correction.Largest();
+    const Vector along = WayOfStep(1);
+    const Vector turn = is_first ? Vector(-Relative(along)) : Relative(tangent);
+    if (!is_first) way -= turn.dot(Relative(way)) / turn.dot(Relative(along)) * along;
+    const double size = Relative(way).cwiseAbs().maxCoeff();
     if (!std::isfinite(size)) return false;
     if (!is_first && (size > 3 * before || (corrections > 1 && size > kFar))) return false;
     before = size;
-    const double part = std::min(1.0, kPart / size);
-    MoveAlong(correction, part);
-    tau *= 1 + part * correction.tau;
+    MoveAlong(way, std::min(1.0, kPart / size), tau);
     if (size >= kClose) continue;
-    const double norm = std::sqrt(along.Dot(along)), dot = is_first ? -norm : tangent.Dot(along);
-    cosine = std::abs(dot) / norm;
-    tangent = Way{Vector::Zero(v_.size()), Vector::Zero(f_.size()), std::vector<double>(along.pairs.size()), 0};
-    tangent.Add((dot < 0 ? -1 : 1) / norm, along);
+    const double norm = Relative(along).norm(), dot = turn.dot(Relative(along));
+    cosine = std::abs(dot) / (norm * turn.norm());
+    tangent = (dot < 0 ? -1 : 1) / norm * along;
     --left;
     return true;
   }

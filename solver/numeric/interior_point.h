@@ -100,17 +100,6 @@ class InteriorPoint {
     double kappa = 30;    // weight of slip beside normals
     bool curve = false;   // by its length
   };
-  // A way from where the path is: changes of v and f; of the numbers of the pairs, x and y in turn, and of tau,
-  // as parts of themselves.
-  struct Way {
-    Vector v, f;
-    std::vector<double> pairs;
-    double tau = 0;
-
-    double Dot(const Way& other) const;
-    double Largest() const;
-    void Add(double length, const Way& other);
-  };
   static constexpr int kTurnCount = 12, kFirstTurns = 4;
   static const std::array<Attempt, kTurnCount> kTurns;
 
@@ -118,7 +107,7 @@ class InteriorPoint {
   void Begin(const Attempt& attempt);
   void Follow();
   void FollowCurve();
-  bool ReturnToCurve(Way& tangent, double& tau, int& left, int& corrections, double& cosine);
+  bool ReturnToCurve(Vector& tangent, double& tau, int& left, int& corrections, double& cosine);
   void Finish(bool is_last);
   template <class Visit>
   void ForEachPair(Visit visit);
@@ -130,8 +119,9 @@ class InteriorPoint {
   double Longest();
   double LongestInside(std::size_t contact) const;
   void Move(double length);
-  Way WayOfStep();
-  void MoveAlong(const Way& way, double length);
+  Vector WayOfStep(double tau);
+  Vector Relative(const Vector& way) const;
+  void MoveAlong(const Vector& way, double length, double& tau);
   void TakeForces();
   double Chance();
 
