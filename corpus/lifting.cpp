@@ -44,21 +44,17 @@ struct FlintInteger {
   fmpz_t of;
 };
 
-// Hadamard: of A x = b the determinants of Cramer's rule, at most.
-struct Bounds {
-  Bounds(const IntegerRows& A, const IntegerVector& b) {
-    mpz_class of_A = 1, of_both = 1;  // squares
-    for (std::size_t i = 0; i < A.size(); ++i) {
-      mpz_class square = 0;
-      for (const mpz_class& x : A[i]) square += x * x;
-      of_A *= square;
-      of_both *= square + b[i] * b[i];
-    }
-    denominator = sqrt(of_A) + 1;
-    numerator = sqrt(of_both) + 1;
+// Hadamard: of A x = b the determinants of Cramer's rule, at most; that of a numerator, and the denominator's.
+std::pair<mpz_class, mpz_class> BoundsOf(const IntegerRows& A, const IntegerVector& b) {
+  mpz_class of_A = 1, of_both = 1;  // squares
+  for (std::size_t i = 0; i < A.size(); ++i) {
+    mpz_class square = 0;
+    for (const mpz_class& x : A[i]) square += x * x;
+    of_A *= square;
+    of_both *= square + b[i] * b[i];
   }
-  mpz_class numerator, denominator;
-};
+  return {sqrt(of_both) + 1, sqrt(of_A) + 1};
+}
 
 // A number of digits in base p, the last one first.
 mpz_class FromDigits(IntegerVector digits, const IntegerVector& powers) {
@@ -71,18 +67,19 @@ mpz_class FromDigits(IntegerVector digits, const IntegerVector& powers) {
   return digits[0];
 }
 
-// The fractions n / d with x_i d = n modulo `modulus`, which is above twice the product of the bounds: mostly
-// of the denominator that those before have.
-CommonFractions Reconstruct(const IntegerVector& x, const mpz_class& modulus, const Bounds& bounds) {
-  const FlintInteger m(modulus), most_numerator(bounds.numerator), most_denominator(bounds.denominator);
+// The fractions n / d with x_i d = n modulo `modulus`, which is above twice the product of the bounds of n and
+// d: mostly of the denominator that those before have.
+CommonFractions Reconstruct(const IntegerVector& x, const mpz_class& modulus, const mpz_class& most_n,
+                            const mpz_class& most_d) {
+  const FlintInteger m(modulus), most_numerator(most_n), most_denominator(most_d);
   CommonFractions fractions;
   IntegerVector known;  // denominators
   for (const mpz_class& residue : x) {
     mpz_class numerator = residue * fractions.denominator % modulus;
     const mpz_class negative = numerator - modulus;
-    if (-negative <= bounds.numerator) {
+    if (-negative <= most_n) {
       numerator = negative;
-    } else if (numerator > bounds.numerator) {
+    } else if (numerator > most_n) {
       const FlintInteger given(numerator);
       FlintInteger n, d;
       const int found =
@@ -105,9 +102,9 @@ CommonFractions Lift(const IntegerRows& A, const Residues& inverse, const std::v
   for (const Rational& x : right) Fractions<Rational>::Include(unit, x);
   IntegerVector rest;
   for (const Rational& x : right) rest.push_back(Fractions<Rational>::Numerator(x, unit));
-  const Bounds bounds(A, rest);
+  const auto [most_n, most_d] = BoundsOf(A, rest);
   const std::size_t size = A.size();
-  const mpz_class most = 2 * bounds.numerator * bounds.denominator;
+  const mpz_class most = 2 * most_n * most_d;
   const std::size_t count = mpz_sizeinbase(most.get_mpz_t(), 2) / (FLINT_BIT_COUNT(prime) - 1) + 1;
   IntegerRows digits(size);
   std::vector<mp_limb_t> residues(size), digit(size);
@@ -129,7 +126,7 @@ CommonFractions Lift(const IntegerRows& A, const Residues& inverse, const std::v
   for (IntegerVector& of : digits) x.push_back(FromDigits(std::move(of), powers));
   mpz_class modulus;
   mpz_ui_pow_ui(modulus.get_mpz_t(), prime, count);
-  CommonFractions fractions = Reconstruct(x, modulus, bounds);
+  CommonFractions fractions = Reconstruct(x, modulus, most_n, most_d);
   fractions.denominator *= unit;
   return fractions;
 }

@@ -188,8 +188,7 @@ Answer<Scalar> RunOnRemainder(const Method<Scalar>& method, const ContactProblem
   using Vector = typename ContactProblem<Scalar>::Vector;
   // A path is told as it is, and the published one knows no exchanges.
   const bool may_exchange = !request.trace && method.path != Path::kDrives;
-  const Remainder<Scalar> remainder(problem, request.tolerances,
-                                    may_exchange ? Exchanges::kAllowed : Exchanges::kNone);
+  const Remainder<Scalar> remainder(problem, request.tolerances, may_exchange);
   if (!remainder.Obstacle().empty()) return Unstarted(problem, Outcome::kSingular, remainder.Obstacle());
   Answer<Scalar> answer = method.In(problem.dimension).run(remainder.problem(), request);
   const auto rows = remainder.problem().rows();

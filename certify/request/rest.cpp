@@ -65,42 +65,37 @@ double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int
   return std::max(-f[row], beyond);
 }
 
-// The same without friction: forces x >= 0 along the edges of the cones, in space of octagons around them.
-struct AlongCones {
-  explicit AlongCones(const ContactProblem<double>& problem) {
-    constexpr int kSides = 8;
-    const double around = 1 / std::cos(std::numbers::pi / kSides);
-    ForEachContact(problem, [&](int i, int row, int rows) {
-      const Contact<double>& contact = problem.contacts[i];
-      const int edges = rows == 1 || contact.mu == 0 ? 1 : rows == 2 ? 2 : kSides;
-      for (int k = 0; k < edges; ++k) {
-        Eigen::VectorXd edge = Eigen::VectorXd::Unit(problem.rows(), row);
-        const double angle = 2 * std::numbers::pi * k / kSides;
-        if (edges == 2) edge[row + 1] = k == 0 ? contact.mu : -contact.mu;
-        if (edges == kSides) edge.segment(row + 1, 2) << std::cos(angle), std::sin(angle);
-        if (edges == kSides) edge.segment(row + 1, 2) *= contact.mu * around;
-        E.conservativeResize(problem.rows(), E.cols() + 1);
-        E.rightCols(1) = edge;
-        const bool is_held = contact.kind == ContactKind::kBilateral;
-        pushing.contacts.push_back({is_held ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}});
-      }
-    });
-    pushing.A = E.transpose() * problem.A * E;
-    pushing.b = E.transpose() * problem.b;
-  }
-
+// Edges of the cones, in space of octagons around them; with them the same problem without friction, of forces
+// x >= 0 along the edges.
+std::pair<Eigen::MatrixXd, ContactProblem<double>> AlongCones(const ContactProblem<double>& problem) {
+  constexpr int kSides = 8;
+  const double around = 1 / std::cos(std::numbers::pi / kSides);
   Eigen::MatrixXd E;
   ContactProblem<double> pushing;
-};
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    const Contact<double>& contact = problem.contacts[i];
+    const int edges = rows == 1 || contact.mu == 0 ? 1 : rows == 2 ? 2 : kSides;
+    for (int k = 0; k < edges; ++k) {
+      Eigen::VectorXd edge = Eigen::VectorXd::Unit(problem.rows(), row);
+      const double angle = 2 * std::numbers::pi * k / kSides;
+      if (edges == 2) edge[row + 1] = k == 0 ? contact.mu : -contact.mu;
+      if (edges == kSides) edge.segment(row + 1, 2) << std::cos(angle), std::sin(angle);
+      if (edges == kSides) edge.segment(row + 1, 2) *= contact.mu * around;
+      E.conservativeResize(problem.rows(), E.cols() + 1);
+      E.rightCols(1) = edge;
+      const bool is_held = contact.kind == ContactKind::kBilateral;
+      pushing.contacts.push_back({is_held ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}});
+    }
+  });
+  pushing.A = E.transpose() * problem.A * E;
+  pushing.b = E.transpose() * problem.b;
+  return {E, pushing};
+}
 
-// What doubles tell of forces in their cones that leave no acceleration.
-struct Balance {
-  Eigen::VectorXd only;  // the only such forces, in or out of their cones; or empty
-  Eigen::VectorXd left;  // what all forces in the cones leave at least, by row; or empty
-};
-
-// Of forces along the edges those that push and never pull leave the least where A is semidefinite.
-Balance BalanceOf(const ContactProblem<double>& problem) {
+// What doubles tell of forces in their cones that leave no acceleration: the only such forces, in or out of
+// their cones; what all forces in the cones leave at least, by row; each may be empty. Of forces along the
+// edges those that push and never pull leave the least where A is semidefinite.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> BalanceOf(const ContactProblem<double>& problem) {
   constexpr int kFewRows = 4 * kQuickRows;
   constexpr double kRegular = 1e-6, kRounding = 1e-9;
   const auto left_by = [&problem](const Eigen::VectorXd& f) -> Eigen::VectorXd {
@@ -112,21 +107,21 @@ Balance BalanceOf(const ContactProblem<double>& problem) {
   };
   if (problem.A != problem.A.transpose()) {
     const Eigen::PartialPivLU<Eigen::MatrixXd> factors(problem.A);
-    if (factors.rcond() > kRegular) return {-factors.solve(problem.b), {}};
-    return {{}, least_of_all()};
+    if (factors.rcond() > kRegular) return {-factors.solve(problem.b), Eigen::VectorXd()};
+    return {Eigen::VectorXd(), least_of_all()};
   }
   const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
   const Eigen::VectorXd pivots = factors.vectorD(), f = -factors.solve(problem.b);
-  if (pivots.minCoeff() > kRegular * pivots.maxCoeff()) return {f, {}};
+  if (pivots.minCoeff() > kRegular * pivots.maxCoeff()) return {f, Eigen::VectorXd()};
   if (!(left_by(f).cwiseAbs().maxCoeff() <= kRounding)) {
     Eigen::VectorXd left = least_of_all();
-    if (left.size() == 0 || left.cwiseAbs().maxCoeff() > kRounding) return {{}, std::move(left)};
+    if (left.size() == 0 || left.cwiseAbs().maxCoeff() > kRounding) return {Eigen::VectorXd(), std::move(left)};
   }
   if (problem.rows() > kFewRows || pivots.minCoeff() < -kRounding * pivots.maxCoeff()) return {};
-  const AlongCones along(problem);
-  const Answer<double> answer = Solve(along.pushing, {.method = "fast"});
+  const auto [E, pushing] = AlongCones(problem);
+  const Answer<double> answer = Solve(pushing, {.method = "fast"});
   if (!answer.Solved()) return {};
-  return {{}, left_by(along.E * answer.f)};
+  return {Eigen::VectorXd(), left_by(E * answer.f)};
 }
 
 // Whether doubles tell that no group of contacts that moves has forces under which it rests: the only ones that
@@ -138,8 +133,8 @@ bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) 
   });
   if (is_open || given.rows() == 0) return false;
   const ContactProblem<double> problem = Scaled(given, FindScale(given));  // b of each group is about 1
-  const Balance balance = BalanceOf(problem);
-  const Eigen::VectorXd &only = balance.only, &left = balance.left;
+  const auto balance = BalanceOf(problem);
+  const Eigen::VectorXd &only = balance.first, &left = balance.second;
   const Eigen::VectorXd& found = only.size() > 0 ? only : left;
   if (found.size() == 0 || !found.allFinite()) return false;
   Groups groups;

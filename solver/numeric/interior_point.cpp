@@ -82,8 +82,8 @@ int InteriorPoint::MostAttempts() const {
 template <class Visit>
 void InteriorPoint::ForEachPair(Visit visit) {
   for (State& state : states_) {
-    if (state.kind != Kind::kBilateral) visit(state.normal);
-    if (state.kind == Kind::kStatic) visit(state.slip);
+    if (state.kind != ContactKind::kBilateral) visit(state.normal);
+    if (state.kind == ContactKind::kStatic) visit(state.slip);
   }
 }
 
@@ -111,13 +111,9 @@ void InteriorPoint::Begin(const Attempt& attempt) {
     const auto& piece = matrix_.pieces()[c];
     State& state = states_[c];
     state = {};
-    if (contact.kind == ContactKind::kBilateral) {
-      state.kind = Kind::kBilateral;
-      continue;
-    }
-    state.kind = contact.kind == ContactKind::kSliding                    ? Kind::kSliding
-                 : contact.kind == ContactKind::kStatic && contact.mu > 0 ? Kind::kStatic
-                                                                          : Kind::kNormal;
+    const bool is_smooth = contact.kind == ContactKind::kStatic && !(contact.mu > 0);
+    state.kind = is_smooth ? ContactKind::kFrictionless : contact.kind;
+    if (state.kind == ContactKind::kBilateral) continue;
     const double own = std::sqrt(matrix_.own(static_cast<int>(c)));
     const double force = attempt.first * most_b_ / own, acceleration = attempt.first * most_b_ * own;
     Pair& normal = state.normal;
@@ -125,9 +121,9 @@ void InteriorPoint::Begin(const Attempt& attempt) {
     normal.y = acceleration * Chance();
     normal.weight = normal.x * normal.y;
     ++pairs_;
-    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+    for (int i = 1; i < piece.rows && state.kind == ContactKind::kSliding; ++i)
       f_[piece.row + i] = -contact.mu * contact.slip[i - 1] * normal.x;
-    if (state.kind != Kind::kStatic) continue;
+    if (state.kind != ContactKind::kStatic) continue;
     state.slip.x = acceleration * attempt.kappa * Chance();
     state.slip.y = contact.mu * normal.x / 2;
     state.slip.weight = 2 / contact.mu * state.slip.x * state.slip.y;
@@ -147,7 +143,7 @@ void InteriorPoint::Offer() {
   const Vector a = problem_->A.J() * v_ + problem_->c;
   BodyMatrix::Block slope;
   for (std::size_t c = 0; c < states_.size(); ++c) {
-    if (states_[c].kind == Kind::kBilateral) continue;
+    if (states_[c].kind == ContactKind::kBilateral) continue;
     const auto& piece = matrix_.pieces()[c];
     std::array<double, 3> p{};
     for (int i = 0; i < piece.rows; ++i)
@@ -233,16 +229,16 @@ void InteriorPoint::TakeResiduals() {
     const double delta = attempt_.delta * matrix_.own(static_cast<int>(c));
     BodyMatrix::Block& D = D_[c];
     D = {};
-    if (state.kind == Kind::kBilateral) {
+    if (state.kind == ContactKind::kBilateral) {
       D[0][0] = 1 / delta;
       state.miss = -at[0];
       continue;
     }
     state.miss = state.normal.y - at[0];
     D[0][0] = 1 / (state.normal.y / state.normal.x + delta);
-    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+    for (int i = 1; i < piece.rows && state.kind == ContactKind::kSliding; ++i)
       D[i][0] = -contact.mu * contact.slip[i - 1] * D[0][0];
-    if (state.kind != Kind::kStatic) continue;
+    if (state.kind != ContactKind::kStatic) continue;
     const double R = contact.mu * force[0], l = state.slip.x, s = state.slip.y;
     const int tangents = piece.rows - 1;
     double square = 0;
@@ -281,11 +277,11 @@ bool InteriorPoint::SolveStep() {
     const auto& contact = problem_->contacts[c];
     const auto& piece = matrix_.pieces()[c];
     double* at = &q[piece.row];
-    at[0] =
-        D_[c][0][0] * (state.miss + (state.kind != Kind::kBilateral ? state.normal.aim / state.normal.x : 0));
-    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+    at[0] = D_[c][0][0] *
+            (state.miss + (state.kind != ContactKind::kBilateral ? state.normal.aim / state.normal.x : 0));
+    for (int i = 1; i < piece.rows && state.kind == ContactKind::kSliding; ++i)
       at[i] = -contact.mu * contact.slip[i - 1] * at[0];
-    if (state.kind != Kind::kStatic) continue;
+    if (state.kind != ContactKind::kStatic) continue;
     const double along_miss = state.slip_miss[0] * state.e[0] + state.slip_miss[1] * state.e[1];
     const double along =
         (-state.slip.y * along_miss - state.length * (state.slip.aim + state.slip.x * state.slack_miss)) /
@@ -305,11 +301,11 @@ bool InteriorPoint::SolveStep() {
       for (int j = 0; j < piece.rows; ++j) change += D_[c][i][j] * da[piece.row + j];
       df_[piece.row + i] = q[piece.row + i] - change;
     }
-    if (state.kind == Kind::kBilateral) continue;
+    if (state.kind == ContactKind::kBilateral) continue;
     const double normal = df_[piece.row];
     state.normal.dx = normal;
     state.normal.dy = (state.normal.aim - state.normal.y * normal) / state.normal.x;
-    if (state.kind != Kind::kStatic) continue;
+    if (state.kind != ContactKind::kStatic) continue;
     double miss = 0, along_a = 0, along_f = 0, by_g = 0;
     for (int i = 1; i < piece.rows; ++i) {
       miss += state.slip_miss[i - 1] * state.e[i - 1];
@@ -346,7 +342,7 @@ double InteriorPoint::Longest() {
 double InteriorPoint::LongestInside(std::size_t c) const {
   constexpr double kBeyond = 2;
   const State& state = states_[c];
-  if (state.kind != Kind::kStatic) return std::numeric_limits<double>::max();
+  if (state.kind != ContactKind::kStatic) return std::numeric_limits<double>::max();
   const double limit = kBeyond * std::max(1.0, state.length) * problem_->contacts[c].mu;
   const auto& piece = matrix_.pieces()[c];
   const double normal = limit * f_[piece.row], change = limit * df_[piece.row];
@@ -378,8 +374,8 @@ void InteriorPoint::TakeForces() {
     const State& state = states_[c];
     const auto& contact = problem_->contacts[c];
     const auto& piece = matrix_.pieces()[c];
-    if (state.kind != Kind::kBilateral) f_[piece.row] = state.normal.x;
-    for (int i = 1; i < piece.rows && state.kind == Kind::kSliding; ++i)
+    if (state.kind != ContactKind::kBilateral) f_[piece.row] = state.normal.x;
+    for (int i = 1; i < piece.rows && state.kind == ContactKind::kSliding; ++i)
       f_[piece.row + i] = -contact.mu * contact.slip[i - 1] * state.normal.x;
   }
 }

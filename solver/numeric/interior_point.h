@@ -81,16 +81,15 @@ class InteriorPoint {
     double x = 1, y = 1, weight = 1;
     double dx = 0, dy = 0, ahead_x = 0, ahead_y = 0, aim = 0;
   };
-  enum class Kind : std::uint8_t { kBilateral, kNormal, kSliding, kStatic };
   struct State {
-    Kind kind = Kind::kStatic;
-    Pair normal, slip;                  // (fN, y); (l, s)
-    std::array<double, 2> g{}, e{};     // fF / R; its direction
-    double length = 0;                  // of g
-    double miss = 0, slack_miss = 0;    // y - aN; s - R / 2 (1 - |g|^2)
-    std::array<double, 2> slip_miss{};  // aF + l g
-    double give = 0, Q = 0;             // l / R + delta A_cc; (l / R + delta A_cc) s + l |g|^2
-    double along = 0;                   // D_pN / D_NN
+    ContactKind kind = ContactKind::kStatic;  // frictionless also where mu is 0
+    Pair normal, slip;                        // (fN, y); (l, s)
+    std::array<double, 2> g{}, e{};           // fF / R; its direction
+    double length = 0;                        // of g
+    double miss = 0, slack_miss = 0;          // y - aN; s - R / 2 (1 - |g|^2)
+    std::array<double, 2> slip_miss{};        // aF + l g
+    double give = 0, Q = 0;                   // l / R + delta A_cc; (l / R + delta A_cc) s + l |g|^2
+    double along = 0;                         // D_pN / D_NN
   };
   struct Attempt {
     double step = 0.9;    // of the way to the boundary

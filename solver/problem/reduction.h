@@ -44,8 +44,6 @@ enum class ReductionEnd : std::uint8_t {
   kSingular,      // A_BB is singular and not decoupled from the rest: A is not symmetric, or not semidefinite
 };
 
-enum class Exchanges : bool { kNone, kAllowed };
-
 // Why a problem could not be reduced; empty if it could.
 inline constexpr std::string_view Reason(ReductionEnd end) {
   switch (end) {
@@ -68,8 +66,7 @@ class Reduction {
 
   // Inexact scalars: pivots below tolerances.pivot of the largest entry are zero, accelerations below
   // tolerances.acceleration of the largest.
-  explicit Reduction(const Problem& problem, const Tolerances& tolerances = {},
-                     Exchanges exchanges = Exchanges::kNone);
+  explicit Reduction(const Problem& problem, const Tolerances& tolerances = {}, bool exchanges = false);
 
   // Whether a problem has anything to reduce.
   static bool Concerns(const Problem& problem);
@@ -105,7 +102,7 @@ class Reduction {
  private:
   void Sort(const Problem& problem);
   void ReplaceSlidingFriction(const Problem& problem);
-  void EliminateBilateral(const Tolerances& tolerances, Exchanges exchanges);
+  void EliminateBilateral(const Tolerances& tolerances, bool exchanges);
   std::vector<int> SolveBilateral(Matrix& T, const Scalar& zero) const;
   void Exchange(Matrix& A, Vector& b, std::vector<int>& determines, const Scalar& zero);
   ReductionEnd Classify(const Matrix& A, const Vector& b, const std::vector<int>& determines,

@@ -18,7 +18,7 @@ bool Reduction<Scalar>::Concerns(const Problem& problem) {
 }
 
 template <class Scalar>
-Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerances, Exchanges exchanges) {
+Reduction<Scalar>::Reduction(const Problem& problem, const Tolerances& tolerances, bool exchanges) {
   Sort(problem);
   ReplaceSlidingFriction(problem);
   EliminateBilateral(tolerances, exchanges);
@@ -98,7 +98,7 @@ std::vector<int> Reduction<Scalar>::SolveBilateral(Matrix& T, const Scalar& zero
 
 // x_B = X x_U + x0, zero where a constraint is redundant. Then rows U of M (x_U, x_B) + b are the problem.
 template <class Scalar>
-void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances, Exchanges exchanges) {
+void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances, bool exchanges) {
   const int count = static_cast<int>(bilateral_.size()), kept = static_cast<int>(row_of_.size());
   Scalar zero(0), zero_acceleration(0);
   if constexpr (!kIsExact<Scalar>) {
@@ -132,7 +132,7 @@ void Reduction<Scalar>::EliminateBilateral(const Tolerances& tolerances, Exchang
   E.leftCols(kept) += E_.leftCols(kept);
   E_ = std::move(E);
   exchanged_.assign(kept, false);
-  if (exchanges == Exchanges::kAllowed) Exchange(A, b, determines, zero);
+  if (exchanges) Exchange(A, b, determines, zero);
   end_ = Classify(A, b, determines, zero, zero_acceleration);
   reduced_.A.resize(kept, kept);
   reduced_.b.resize(kept);

@@ -27,8 +27,7 @@ class Remainder {
   using Vector = typename Problem::Vector;
 
   // Keeps a reference: `whole` must outlive it.
-  explicit Remainder(const Problem& whole, const Tolerances& tolerances = {},
-                     Exchanges exchanges = Exchanges::kNone)
+  explicit Remainder(const Problem& whole, const Tolerances& tolerances = {}, bool exchanges = false)
       : whole_(whole) {
     if (Reduction<Scalar>::Concerns(whole)) reduction_.emplace(whole, tolerances, exchanges);
   }

@@ -69,7 +69,7 @@ TEST_CASE("where it is allowed a frictionless contact changes its force for its 
   ExactProblem problem = MakeProblem({-1, -1, -1}, {{0, 1, 0}, {-1, 4, 0}, {1, 0, 1}}, {-3, -1, -2});
   problem.contacts[0].kind = ContactKind::kBilateral;
   CHECK(Reduction<Rational>(problem).end() == ReductionEnd::kSingular);
-  const Reduction<Rational> reduction(problem, {}, Exchanges::kAllowed);
+  const Reduction<Rational> reduction(problem, {}, /*exchanges=*/true);
   REQUIRE(reduction.end() == ReductionEnd::kReduced);
   CHECK(reduction.HasExchanges());
   CHECK(reduction.problem().A == Matrix({{0, 0}, {-1, 1}}));
@@ -77,14 +77,14 @@ TEST_CASE("where it is allowed a frictionless contact changes its force for its 
   const ExactVector f = reduction.Forces(Vector({2, 5}));
   CHECK(f == Vector({9, 3, 5}));
   CHECK(problem.A * f + problem.b == Vector({0, 2, 12}));
-  const Reduction<double> rounded(InDoubles(problem), {}, Exchanges::kAllowed);
+  const Reduction<double> rounded(InDoubles(problem), {}, /*exchanges=*/true);
   REQUIRE(rounded.end() == ReductionEnd::kReduced);
   CHECK(rounded.Forces(Eigen::Vector2d(2, 5)) == Eigen::Vector3d(9, 3, 5));
   problem.contacts[1].kind = ContactKind::kStatic;  // with friction there is no other side to change to
   problem.contacts[1].mu = 1;
   problem.A = Matrix({{0, 1, 0, 0}, {-1, 4, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}});
   problem.b = Vector({-3, -1, 0, 0});
-  CHECK(Reduction<Rational>(problem, {}, Exchanges::kAllowed).end() == ReductionEnd::kSingular);
+  CHECK(Reduction<Rational>(problem, {}, /*exchanges=*/true).end() == ReductionEnd::kSingular);
 }
 
 TEST_CASE("6: the rod that slides: none, one or two solutions") {
