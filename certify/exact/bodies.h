@@ -28,6 +28,10 @@ inline bool IsOfBodies(std::string_view method) { return method == kNewtonBodies
 // forces that were found, with their errors, however it ends; none if they are not finite.
 InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request);
 
+// The modes near the forces of the interior point method over doubles, solved exactly, on equations as many as
+// the bodies' velocities at most. solved, with `bound` in space, or undecided.
+ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request);
+
 // The rows of the table, for dense problems.
 Method<double> NewtonBodiesRow();
 Method<double> InteriorPointRow();

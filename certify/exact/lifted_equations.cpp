@@ -74,6 +74,18 @@ class LiftedEquations {
 
 }  // namespace
 
+// Rows times their denominators are independent where they are.
+std::vector<int> IndependentRows(const Eigen::SparseMatrix<Rational, Eigen::RowMajor>& M) {
+  using Row = Eigen::SparseMatrix<Rational, Eigen::RowMajor>::InnerIterator;
+  IntegerRows transposed(M.cols(), IntegerVector(M.rows()));
+  for (int i = 0; i < M.rows(); ++i) {
+    mpz_class scale = 1;
+    for (Row of(M, i); of; ++of) Fractions<Rational>::Include(scale, of.value());
+    for (Row of(M, i); of; ++of) transposed[of.col()][i] = Fractions<Rational>::Numerator(of.value(), scale);
+  }
+  return IndependentColumns(transposed, LiftingPrime(0));
+}
+
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess) {
   const LiftedEquations equations(M, LiftingPrime(0));

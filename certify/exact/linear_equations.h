@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "certify/exact/properties.h"
 
@@ -19,5 +20,9 @@ std::optional<ExactVector> SolveEquations(const ExactMatrix& M, const ExactVecto
 // say of equations that have a solution that they contradict each other, never the reverse.
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
+
+// The first rows that are independent modulo a prime of 62 bits, and so are; where that prime divides a minor
+// there may be more.
+std::vector<int> IndependentRows(const Eigen::SparseMatrix<Rational, Eigen::RowMajor>& M);
 
 }  // namespace stiction

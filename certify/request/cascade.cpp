@@ -127,8 +127,8 @@ struct Turn {
 };
 
 constexpr Turn kCascade[] = {
-    {kDouble, 0, &HasFactors, kNewtonBodies, kDouble, &RunBodies},
     {kDouble, 0, &HasFactors, kInteriorPoint, kDouble, &RunBodies},
+    {kDouble, 0, &HasFactors, kNewtonBodies, kDouble, &RunBodies},
     {kDouble, 0, &StaysSparse, "entries", kDouble, &RunEntries, true},  // no method: the one that takes entries
     {kDouble, 3, &Always, "fast", kDouble, &RunWithoutPolygons},
     {kDouble, 2, &Always, kAutomatic, kDouble},
@@ -170,6 +170,8 @@ void PreferRestIn(Posed& posed, const Request& request, Solution& solution) {
     return PreferRest(posed.file(), rounded, request, *exact);
   }
   auto& answer = std::get<InexactAnswer>(solution.answer);
+  const bool in_factors = request.arithmetic == kDouble && posed.factors() != nullptr;
+  if (in_factors && !Accelerates(InDoubles(*posed.factors()), answer)) return;
   const auto file = [&posed]() -> const AnyProblem& { return posed.file(); };
   if (request.arithmetic != kFloat) return PreferRest(posed.doubles(), file, request, answer);
   const auto ran = Converted<double>(posed.RoundedTo<float>(), [](float x) { return double{x}; });

@@ -172,7 +172,8 @@ void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded
 namespace {
 
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
-ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
+template <class Problem>
+ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
   LenientUnits<double> units;
   units.Take(problem, answer.f);
@@ -187,6 +188,10 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
 }
 
 }  // namespace
+
+bool Accelerates(const FactoredProblem<double>& problem, const InexactAnswer& answer) {
+  return !answer.Solved() || !Moving(problem, answer).isZero(0);
+}
 
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
                 const Request& request, InexactAnswer& answer) {

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "certify/exact/bodies.h"
+#include "certify/exact/linear_equations.h"
+#include "certify/exact/polygons.h"
+#include "certify/exact/verify_solution.h"
+#include "solver/numeric/interior_point.h"
+#include "solver/problem/units.h"
+
+namespace stiction {
+namespace {
+
+using SparseColumns = Eigen::SparseMatrix<Rational>;
+using SparseRows = ExactFactors::Matrix::Rows;
+using Entries = std::vector<Eigen::Triplet<Rational>>;
+
+constexpr double kMotion = 1e-6;    // in units of its own an acceleration that is none
+constexpr double kPressure = 1e-9;  // likewise a force, and what is left to the limit of friction
+constexpr int kPlaces = 40;         // binary, of the largest force, in forces that the equations leave free
+
+// What contacts do, as linear equations: rows with a = 0, and forces per unit of as many unknowns.
+struct LinearModes {
+  std::vector<int> still;  // rows
+  Entries along;           // f = E x
+
+  void Add(int row) {
+    along.emplace_back(row, std::ssize(still), Rational(1));
+    still.push_back(row);
+  }
+};
+
+// The direction of friction of a contact that slips; none where it sticks.
+std::optional<Planar<Rational>> SlipOf(const FactoredProblem<double>& problem, int i, int row, int rows,
+                                       const Eigen::VectorXd& f, const Eigen::VectorXd& a, double unit) {
+  constexpr int kBits = 45;
+  const double limit = problem.contacts[i].mu * f[row], speed = TangentLength(a, row, rows);
+  const bool slips = speed > kMotion * unit;
+  if (!slips && TangentLength(f, row, rows) < (1 - kPressure) * limit) return std::nullopt;
+  const Eigen::VectorXd& along = slips ? a : f;
+  const double sign = slips ? -1 : 1, x = sign * along[row + 1];
+  if (rows == 2) return Planar<Rational>{Rational(x > 0 ? 1 : -1), Rational(0)};
+  return NearDirection({Rational(x), Rational(sign * along[row + 2])}, kBits);
+}
+
+LinearModes ModesNearDoubles(const ExactFactors& problem, const FactoredProblem<double>& rounded,
+                             const Eigen::VectorXd& f, const Eigen::VectorXd& a) {
+  LinearModes modes;
+  LenientUnits<double> units;
+  units.Take(rounded, f);
+  ForEachContact(problem, [&](int i, int row, int rows) {
+    const Contact<Rational>& contact = problem.contacts[i];
+    if (contact.kind == ContactKind::kBilateral) return modes.Add(row);
+    if (a[row] > kMotion * units.acceleration(row) || !(f[row] > kPressure * units.force(row))) return;
+    modes.Add(row);
+    if (rows == 1) return;
+    const int unknown = static_cast<int>(std::ssize(modes.still)) - 1;
+    std::optional<Planar<Rational>> friction;
+    if (contact.kind == ContactKind::kSliding) {
+      friction = {Rational(-contact.slip[0]), Rational(-contact.slip[1])};
+    } else {
+      friction = SlipOf(rounded, i, row, rows, f, a, units.acceleration(row + 1));
+    }
+    for (int k = 1; k < rows; ++k) {
+      if (!friction) {
+        modes.Add(row + k);
+      } else if ((*friction)[k - 1] != 0) {
+        modes.along.emplace_back(row + k, unknown, Rational(contact.mu * (*friction)[k - 1]));
+      }
+    }
+  });
+  return modes;
+}
+
+// The nearest multiple of 2^-places.
+Rational NearMultiple(double x, int places) {
+  return Rational(std::nearbyint(std::ldexp(x, places))) / (Rational(mpz_class(1) << std::max(places, 0)));
+}
+
+// f with a = 0 in the rows of the modes. Of these rows the first that are independent in J have the unknowns of
+// the equations, as many as the bodies' velocities at most; other forces are near f.
+std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem, const LinearModes& modes,
+                                            const Eigen::VectorXd& near) {
+  const int rows = problem.rows(), count = static_cast<int>(std::ssize(modes.still));
+  SparseColumns E(rows, count);
+  E.setFromTriplets(modes.along.begin(), modes.along.end());
+  SparseRows J(count, problem.w.size());
+  Entries entries;
+  for (int k = 0; k < count; ++k)
+    for (SparseRows::InnerIterator of(problem.A.J(), modes.still[k]); of; ++of)
+      entries.emplace_back(k, of.col(), of.value());
+  J.setFromTriplets(entries.begin(), entries.end());
+  const std::vector<int> kept = IndependentRows(J);
+  const double largest = near.size() > 0 ? near.cwiseAbs().maxCoeff() : 0;
+  const int places = largest > 0 ? kPlaces - std::ilogb(largest) : kPlaces;
+  ExactVector x(count);
+  for (int k = 0; k < count; ++k) x[k] = NearMultiple(near[modes.still[k]], std::max(places, 0));
+  for (const int k : kept) x[k] = 0;
+  const int unknowns = static_cast<int>(std::ssize(kept));
+  const SparseColumns responses = problem.A.JW().transpose() * E;
+  SparseColumns chosen(count, unknowns);
+  for (int j = 0; j < unknowns; ++j) chosen.insert(kept[j], j) = Rational(1);
+  const SparseColumns system = SparseColumns(chosen.transpose()) * SparseColumns(SparseColumns(J) * SparseColumns(responses * chosen));
+  const ExactVector given = J * ExactVector(responses * x);
+  ExactMatrix M = ExactMatrix::Constant(unknowns, unknowns, Rational(0));
+  for (int j = 0; j < unknowns; ++j)
+    for (SparseColumns::InnerIterator of(system, j); of; ++of) M(of.row(), j) = of.value();
+  ExactVector right(unknowns);
+  for (int j = 0; j < unknowns; ++j) right[j] = -problem.b[modes.still[kept[j]]] - given[kept[j]];
+  const auto solved = SolveByLifting(M, right, ExactVector::Constant(unknowns, Rational(0)));
+  if (!solved) return std::nullopt;
+  for (int j = 0; j < unknowns; ++j) x[kept[j]] = (*solved)[j];
+  return E * x;
+}
+
+}  // namespace
+
+ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request) {
+  ExactAnswer answer;
+  answer.method = kInteriorPoint;
+  answer.law = FrictionLaw::kCoulomb;
+  answer.reason = "the modes near the forces of doubles are no solution";
+  const FactoredProblem<double> rounded = InDoubles(problem);
+  InteriorPoint engine(request);
+  engine.Run(rounded);
+  if (engine.f().size() != problem.rows() || !engine.f().allFinite()) return answer;
+  const LinearModes modes = ModesNearDoubles(problem, rounded, engine.f(), engine.a());
+  auto f = SolveLinearModes(problem, modes, engine.f());
+  if (!f) return answer;
+  answer.a = problem.Accelerations(*f);
+  const ExactProblem law{problem.dimension, problem.contacts, {}, {}};
+  const auto bound = CoulombBound(law, *f, answer.a);
+  if (!bound || *bound <= 0) return answer;
+  if (problem.dimension == 3) answer.bound = *bound;
+  answer.f = *std::move(f);
+  answer.outcome = Outcome::kSolved;
+  answer.reason.clear();
+  return answer;
+}
+
+}  // namespace stiction
