@@ -92,12 +92,14 @@ template <FrictionLaw kLaw>
 SharedJson SolutionByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request& request) {
   if (problem.rows() < kCellsFirst) return {};
   const ExactAnswer answer = SolveByBodiesExactly(factors, request);
+  if (answer.bound && kLaw == FrictionLaw::kCoulomb)
+    return CoulombCertificate(problem, answer.f, *answer.bound);
   if (!answer.Solved()) return {};
-  if (answer.bound && kLaw == FrictionLaw::kCoulomb) return CoulombCertificate(problem, answer.f, *answer.bound);
   return FindViolation(problem, answer.f, answer.a) ? SharedJson() : SolutionCertificate(problem, answer.f);
 }
 
-SharedJson ExistenceByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request& request) {
+SharedJson ExistenceByFactors(const ExactProblem& problem, const ExactFactors& factors,
+                              const Request& request) {
   return request.law == FrictionLaw::kBaraff
              ? SolutionByFactors<FrictionLaw::kBaraff>(problem, factors, request)
              : SolutionByFactors<FrictionLaw::kCoulomb>(problem, factors, request);
@@ -123,8 +125,7 @@ ClaimRows SolutionClaims() {
             SolutionByFactors<FrictionLaw::kBaraff>},
       Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space",
             ExistingUnder<FrictionLaw::kCoulomb>, RequireSpace,
-            "forces that meet Coulomb's law up to the bound", false,
-            SolutionByFactors<FrictionLaw::kCoulomb>}};
+            "forces that meet Coulomb's law up to the bound", false, SolutionByFactors<FrictionLaw::kCoulomb>}};
   return {10, kClaims};
 }
 

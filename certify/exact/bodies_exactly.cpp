@@ -6,8 +6,8 @@
 #include "certify/exact/bodies.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/polygons.h"
+#include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
-#include "solver/numeric/interior_point.h"
 #include "solver/problem/units.h"
 
 namespace stiction {
@@ -102,7 +102,8 @@ std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem, const L
   const SparseColumns responses = problem.A.JW().transpose() * E;
   SparseColumns chosen(count, unknowns);
   for (int j = 0; j < unknowns; ++j) chosen.insert(kept[j], j) = Rational(1);
-  const SparseColumns system = SparseColumns(chosen.transpose()) * SparseColumns(SparseColumns(J) * SparseColumns(responses * chosen));
+  const SparseColumns system =
+      SparseColumns(chosen.transpose()) * SparseColumns(SparseColumns(J) * SparseColumns(responses * chosen));
   const ExactVector given = J * ExactVector(responses * x);
   ExactMatrix M = ExactMatrix::Constant(unknowns, unknowns, Rational(0));
   for (int j = 0; j < unknowns; ++j)
@@ -117,26 +118,36 @@ std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem, const L
 
 }  // namespace
 
+// Directions of slip are turned against the accelerations that they leave once, where that betters the bound.
 ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request) {
+  constexpr int kTurns = 2;
+  Request asked = request;
+  if (asked.method != kNewtonBodies)
+    asked.method = kInteriorPoint;  // whose forces are in the middle of their cones
+  const InexactAnswer near = SolveByBodies(problem, asked);
   ExactAnswer answer;
-  answer.method = kInteriorPoint;
+  answer.method = near.method;
   answer.law = FrictionLaw::kCoulomb;
   answer.reason = "the modes near the forces of doubles are no solution";
+  if (near.f.size() != problem.rows()) return answer;
   const FactoredProblem<double> rounded = InDoubles(problem);
-  InteriorPoint engine(request);
-  engine.Run(rounded);
-  if (engine.f().size() != problem.rows() || !engine.f().allFinite()) return answer;
-  const LinearModes modes = ModesNearDoubles(problem, rounded, engine.f(), engine.a());
-  auto f = SolveLinearModes(problem, modes, engine.f());
-  if (!f) return answer;
-  answer.a = problem.Accelerations(*f);
   const ExactProblem law{problem.dimension, problem.contacts, {}, {}};
-  const auto bound = CoulombBound(law, *f, answer.a);
-  if (!bound || *bound <= 0) return answer;
-  if (problem.dimension == 3) answer.bound = *bound;
-  answer.f = *std::move(f);
-  answer.outcome = Outcome::kSolved;
-  answer.reason.clear();
+  Eigen::VectorXd toward = near.a;
+  for (int turn = 0; turn < kTurns && !(answer.bound >= EnoughBound()); ++turn) {
+    auto f = SolveLinearModes(problem, ModesNearDoubles(problem, rounded, near.f, toward), near.f);
+    if (!f) break;
+    ExactVector a = problem.Accelerations(*f);
+    const auto bound = CoulombBound(law, *f, a);
+    if (!bound || *bound <= answer.bound.value_or(0)) break;
+    toward = a.unaryExpr(&ToDouble);
+    answer.f = *std::move(f);
+    answer.a = std::move(a);
+    answer.bound = bound;
+    answer.outcome = Outcome::kSolved;
+    answer.reason.clear();
+  }
+  CallBounded(answer);
+  if (problem.dimension == 2) answer.bound.reset();
   return answer;
 }
 

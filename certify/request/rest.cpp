@@ -38,14 +38,18 @@ Rational Motion(const ExactProblem& problem, const ExactVector& a) {
 // less: its steps are those of the least change.
 void PreferLessMotion(const AnyProblem& problem, const Request& request, ExactAnswer& answer) {
   if (problem.dimension() != 3 || answer.law != FrictionLaw::kCoulomb || answer.a.isZero(0)) return;
-  Eigen::VectorXd f;
-  try {
-    f = problem.factors() != nullptr ? SolveByBodies(*problem.factors(), request).f
-                                     : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f;
-  } catch (const InputError&) {  // doubles do not hold the problem
-    return;
+  ExactAnswer other;
+  if (problem.factors() != nullptr) {
+    Request by_newton = request;
+    by_newton.method = kNewtonBodies;
+    other = SolveByBodiesExactly(*problem.factors(), by_newton);
+  } else {
+    try {
+      other = SolveNear(problem, request, SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f);
+    } catch (const InputError&) {  // doubles do not hold the problem
+      return;
+    }
   }
-  ExactAnswer other = SolveNear(problem, request, f);
   if (!other.Solved()) return;
   const Rational mine = Motion(problem, answer.a), least = Motion(problem, other.a);
   constexpr double kAlike = 1e-6;  // what bounded directions of slip leave

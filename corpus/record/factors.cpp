@@ -348,7 +348,8 @@ FactoredProblem<double> InDoubles(const ExactFactors& factors) {
   return rounded;
 }
 
-// Of n roundings each sum is off by at most 2n roundings of the same sum of abs(inv(M) J')_kj abs(J)_ik abs(f_j).
+// Of n roundings each sum is off by at most 2n roundings of the same sum of abs(inv(M) J')_kj abs(J)_ik
+// abs(f_j).
 void AddSizes(const ExactFactors& factors, const ExactProblem::Vector& f, std::vector<Rational>& size) {
   constexpr double kTiny = 1e-250, kHuge = 1e250;
   using Rows = FactoredMatrix<double>::Rows;
