@@ -382,17 +382,20 @@ Doubles InDoubles(const ExactProblem& problem) {
   }
 }
 
-// Forces near which a solution is looked for. In factors they are in the middle of their cones.
-Doubles::Vector ForcesNear(const Doubles& problem, const ExactFactors* factors, const Limits& limits) {
-  if (factors != nullptr) {
-    InexactAnswer answer = SolveByBodies(*factors, {.method = kInteriorPoint, .limits = limits});
-    if (answer.Solved()) return std::move(answer.f);
-  }
+// Forces near which a solution is looked for.
+Doubles::Vector ForcesNear(const Doubles& problem, const Limits& limits) {
   for (const std::string_view method : {"fast", "complete"}) {
     const Answer<double> answer = Solve(problem, {.method = method, .limits = limits});
     if (answer.Solved()) return answer.f;
   }
   throw NothingShown{"no forces were found near which to look"};
+}
+
+// The same in factors: in the middle of their cones.
+Doubles::Vector ForcesOfBodies(const ExactFactors& factors, const Limits& limits) {
+  InexactAnswer answer = SolveByBodies(factors, {.method = kInteriorPoint, .limits = limits});
+  if (!answer.Solved()) throw NothingShown{"no forces were found near which to look"};
+  return std::move(answer.f);
 }
 
 // Of every contact, the largest of its rows.
@@ -646,7 +649,7 @@ Json FindBox(const ExactProblem& problem, const Layout& layout, const FixedForce
 
 Json CertifyBox(const ExactProblem& problem, const ExactFactors* factors, const Limits& limits) {
   const Doubles rounded = InDoubles(problem);
-  Doubles::Vector f = ForcesNear(rounded, factors, limits);
+  Doubles::Vector f = factors != nullptr ? ForcesOfBodies(*factors, limits) : ForcesNear(rounded, limits);
   const Doubles::Vector a = rounded.A * f + rounded.b;
   const ContactUnits units = UnitsOf(rounded, f);
   Layout layout(problem, BehaviorsNear(problem, a, units));

@@ -31,9 +31,9 @@ InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request)
 // goes.
 InexactAnswer Judged(const ExactFactors& problem, const Request& request, InexactAnswer answer);
 
-// The modes near the forces of the interior point method, unless newton-bodies is asked for, solved exactly: on equations as many as the bodies'
-// velocities at most, by p-adic lifting (linear_equations.h). solved, or undecided; in space with `bound`, if
-// any forces were found.
+// The modes near the forces of the interior point method, unless newton-bodies is asked for, solved exactly: on
+// equations as many as the bodies' velocities at most, by p-adic lifting (linear_equations.h). solved, or
+// undecided; in space with `bound`, if any forces were found.
 ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request);
 
 // The rows of the table, for dense problems.

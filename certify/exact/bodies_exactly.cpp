@@ -21,53 +21,46 @@ constexpr double kMotion = 1e-6;    // in units of its own an acceleration that 
 constexpr double kPressure = 1e-9;  // likewise a force, and what is left to the limit of friction
 constexpr int kPlaces = 40;         // binary, of the largest force, in forces that the equations leave free
 
-// What contacts do, as linear equations: rows with a = 0, and forces per unit of as many unknowns.
-struct LinearModes {
-  std::vector<int> still;  // rows
-  Entries along;           // f = E x
-
-  void Add(int row) {
-    along.emplace_back(row, std::ssize(still), Rational(1));
-    still.push_back(row);
-  }
-};
-
-// The direction of friction of a contact that slips; none where it sticks.
-std::optional<Planar<Rational>> SlipOf(const FactoredProblem<double>& problem, int i, int row, int rows,
-                                       const Eigen::VectorXd& f, const Eigen::VectorXd& a, double unit) {
+// The direction of friction of a contact that slips; zero where it sticks.
+Planar<Rational> SlipOf(const FactoredProblem<double>& problem, int i, int row, int rows,
+                        const Eigen::VectorXd& f, const Eigen::VectorXd& a, double unit) {
   constexpr int kBits = 45;
   const double limit = problem.contacts[i].mu * f[row], speed = TangentLength(a, row, rows);
   const bool slips = speed > kMotion * unit;
-  if (!slips && TangentLength(f, row, rows) < (1 - kPressure) * limit) return std::nullopt;
+  if (!slips && TangentLength(f, row, rows) < (1 - kPressure) * limit) return {};
   const Eigen::VectorXd& along = slips ? a : f;
   const double sign = slips ? -1 : 1, x = sign * along[row + 1];
-  if (rows == 2) return Planar<Rational>{Rational(x > 0 ? 1 : -1), Rational(0)};
+  if (rows == 2) return {Rational(x > 0 ? 1 : -1), Rational(0)};
   return NearDirection({Rational(x), Rational(sign * along[row + 2])}, kBits);
 }
 
-LinearModes ModesNearDoubles(const ExactFactors& problem, const FactoredProblem<double>& rounded,
-                             const Eigen::VectorXd& f, const Eigen::VectorXd& a) {
-  LinearModes modes;
+// What contacts do, as linear equations: rows with a = 0, and E with f = E x, of as many unknowns x.
+std::pair<std::vector<int>, Entries> ModesNearDoubles(const ExactFactors& problem,
+                                                      const FactoredProblem<double>& rounded,
+                                                      const Eigen::VectorXd& f, const Eigen::VectorXd& a) {
+  std::pair<std::vector<int>, Entries> modes;
+  const auto add = [&modes](int row) {
+    modes.second.emplace_back(row, std::ssize(modes.first), Rational(1));
+    modes.first.push_back(row);
+  };
   LenientUnits<double> units;
   units.Take(rounded, f);
   ForEachContact(problem, [&](int i, int row, int rows) {
     const Contact<Rational>& contact = problem.contacts[i];
-    if (contact.kind == ContactKind::kBilateral) return modes.Add(row);
+    if (contact.kind == ContactKind::kBilateral) return add(row);
     if (a[row] > kMotion * units.acceleration(row) || !(f[row] > kPressure * units.force(row))) return;
-    modes.Add(row);
+    add(row);
     if (rows == 1) return;
-    const int unknown = static_cast<int>(std::ssize(modes.still)) - 1;
-    std::optional<Planar<Rational>> friction;
-    if (contact.kind == ContactKind::kSliding) {
-      friction = {Rational(-contact.slip[0]), Rational(-contact.slip[1])};
-    } else {
-      friction = SlipOf(rounded, i, row, rows, f, a, units.acceleration(row + 1));
-    }
+    const int unknown = static_cast<int>(std::ssize(modes.first)) - 1;
+    const bool slides = contact.kind == ContactKind::kSliding;
+    const Planar<Rational> friction = slides ? Planar<Rational>{-contact.slip[0], -contact.slip[1]}
+                                             : SlipOf(rounded, i, row, rows, f, a, units.acceleration(row + 1));
+    const bool sticks = !slides && friction == Planar<Rational>{};
     for (int k = 1; k < rows; ++k) {
-      if (!friction) {
-        modes.Add(row + k);
-      } else if ((*friction)[k - 1] != 0) {
-        modes.along.emplace_back(row + k, unknown, Rational(contact.mu * (*friction)[k - 1]));
+      if (sticks) {
+        add(row + k);
+      } else if (friction[k - 1] != 0) {
+        modes.second.emplace_back(row + k, unknown, Rational(contact.mu * friction[k - 1]));
       }
     }
   });
@@ -81,22 +74,24 @@ Rational NearMultiple(double x, int places) {
 
 // f with a = 0 in the rows of the modes. Of these rows the first that are independent in J have the unknowns of
 // the equations, as many as the bodies' velocities at most; other forces are near f.
-std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem, const LinearModes& modes,
+std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem,
+                                            const std::pair<std::vector<int>, Entries>& modes,
                                             const Eigen::VectorXd& near) {
-  const int rows = problem.rows(), count = static_cast<int>(std::ssize(modes.still));
+  const auto& [still, along] = modes;
+  const int rows = problem.rows(), count = static_cast<int>(std::ssize(still));
   SparseColumns E(rows, count);
-  E.setFromTriplets(modes.along.begin(), modes.along.end());
+  E.setFromTriplets(along.begin(), along.end());
   SparseRows J(count, problem.w.size());
   Entries entries;
   for (int k = 0; k < count; ++k)
-    for (SparseRows::InnerIterator of(problem.A.J(), modes.still[k]); of; ++of)
+    for (SparseRows::InnerIterator of(problem.A.J(), still[k]); of; ++of)
       entries.emplace_back(k, of.col(), of.value());
   J.setFromTriplets(entries.begin(), entries.end());
   const std::vector<int> kept = IndependentRows(J);
   const double largest = near.size() > 0 ? near.cwiseAbs().maxCoeff() : 0;
   const int places = largest > 0 ? kPlaces - std::ilogb(largest) : kPlaces;
   ExactVector x(count);
-  for (int k = 0; k < count; ++k) x[k] = NearMultiple(near[modes.still[k]], std::max(places, 0));
+  for (int k = 0; k < count; ++k) x[k] = NearMultiple(near[still[k]], std::max(places, 0));
   for (const int k : kept) x[k] = 0;
   const int unknowns = static_cast<int>(std::ssize(kept));
   const SparseColumns responses = problem.A.JW().transpose() * E;
@@ -109,7 +104,7 @@ std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem, const L
   for (int j = 0; j < unknowns; ++j)
     for (SparseColumns::InnerIterator of(system, j); of; ++of) M(of.row(), j) = of.value();
   ExactVector right(unknowns);
-  for (int j = 0; j < unknowns; ++j) right[j] = -problem.b[modes.still[kept[j]]] - given[kept[j]];
+  for (int j = 0; j < unknowns; ++j) right[j] = -problem.b[still[kept[j]]] - given[kept[j]];
   const auto solved = SolveByLifting(M, right, ExactVector::Constant(unknowns, Rational(0)));
   if (!solved) return std::nullopt;
   for (int j = 0; j < unknowns; ++j) x[kept[j]] = (*solved)[j];
