@@ -199,11 +199,11 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-SharedJson SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request&) {
+SharedJson SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
   return MakeCertificate("psd", problem, FactorsWitness(factors));
 }
 
-SharedJson RangeByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request&) {
+SharedJson RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
   return IsInRangeByFactors(factors) ? MakeCertificate("in-range", problem, FactorsWitness(factors)) : Json();
 }
 

@@ -50,10 +50,8 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const Request& re
 }  // namespace
 
 InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request) {
-  return Judged(problem, request, RunBodies(InDoubles(problem), request));
-}
-
-InexactAnswer Judged(const ExactFactors& problem, const Request& request, InexactAnswer answer) {
+  const Factored rounded = InDoubles(problem);
+  InexactAnswer answer = RunBodies(rounded, request);
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) {
     answer.f.resize(0);
     answer.outcome = Outcome::kUndecided;

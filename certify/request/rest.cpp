@@ -38,18 +38,14 @@ Rational Motion(const ExactProblem& problem, const ExactVector& a) {
 // less: its steps are those of the least change.
 void PreferLessMotion(const AnyProblem& problem, const Request& request, ExactAnswer& answer) {
   if (problem.dimension() != 3 || answer.law != FrictionLaw::kCoulomb || answer.a.isZero(0)) return;
-  ExactAnswer other;
-  if (problem.factors() != nullptr) {
-    Request by_newton = request;
-    by_newton.method = kNewtonBodies;
-    other = SolveByBodiesExactly(*problem.factors(), by_newton);
-  } else {
-    try {
-      other = SolveNear(problem, request, SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f);
-    } catch (const InputError&) {  // doubles do not hold the problem
-      return;
-    }
+  Eigen::VectorXd f;
+  try {
+    f = problem.factors() != nullptr ? SolveByBodies(*problem.factors(), request).f
+                                     : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f;
+  } catch (const InputError&) {  // doubles do not hold the problem
+    return;
   }
+  ExactAnswer other = SolveNear(problem, request, f);
   if (!other.Solved()) return;
   const Rational mine = Motion(problem, answer.a), least = Motion(problem, other.a);
   constexpr double kAlike = 1e-6;  // what bounded directions of slip leave
@@ -176,8 +172,7 @@ void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded
 namespace {
 
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
-template <class Problem>
-ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
+ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
   LenientUnits<double> units;
   units.Take(problem, answer.f);
@@ -192,10 +187,6 @@ ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
 }
 
 }  // namespace
-
-bool Accelerates(const FactoredProblem<double>& problem, const InexactAnswer& answer) {
-  return !answer.Solved() || !Moving(problem, answer).isZero(0);
-}
 
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
                 const Request& request, InexactAnswer& answer) {

@@ -137,7 +137,7 @@ class Solved(unittest.TestCase):
         J_, w = wall(columns, rows)
         problem = stiction.Problem(J=J_, M=np.ones(J_.shape[1]), w=w, mu=0.5, name="wall")
         answer = stiction.solve(problem)
-        self.assertEqual((answer.outcome, answer.method), ("solved", "interior-point"))
+        self.assertEqual((answer.outcome, answer.method), ("solved", "newton-bodies"))
         self.assertAlmostEqual(answer.f[0:4 * columns:2].sum(), 10 * columns * rows, delta=1e-6)
         self.assertEqual((len(problem.b), problem.J.shape), (4 * columns * rows, J_.shape))
         with self.assertRaisesRegex(ValueError, "4800.*at most 4000"):
