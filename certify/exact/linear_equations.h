@@ -14,9 +14,9 @@ namespace stiction {
 std::optional<ExactVector> SolveEquations(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
 
-// As SolveEquations, and the same numbers. Rows and columns are chosen that are independent modulo a prime of 62
-// bits, and so are; the other rows are checked. Where that prime divides a minor there may be more: then it may
-// say of equations that have a solution that they contradict each other, never the reverse.
+// As SolveEquations, and the same numbers. Rows and columns are chosen that are independent modulo a prime of
+// 62 bits, and so are; the other rows are checked. Where that prime divides a minor there may be more: then it
+// may say of equations that have a solution that they contradict each other, never the reverse.
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
 
