@@ -119,7 +119,9 @@ Tolerances ForReduction(Tolerances tolerances, int dimension) {
 // The order is that of the turns; the methods keep their memory.
 class SceneSolver::Methods {
  public:
-  Methods() : proximal_({}, kProximalAim), coulomb_({.residual = kCoulombResidual}) {}
+  Methods() : proximal_({}, kProximalAim), coulomb_({.residual = kCoulombResidual}) {
+    bodies_.measures_start = false;
+  }
 
   SceneAnswer Solve(const ContactProblem<double>& problem);
   SceneAnswer Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start);

@@ -18,11 +18,11 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
-  // The error of a start is asked for where it is the best there is: it costs as much as a step.
+  // The error of a start may cost as much as a step.
   const auto offer_start = [this] {
     if (best_.f().size() != center_.size()) best_.Offer(center_);
   };
-  if (start == nullptr) offer_start();
+  if (start == nullptr || measures_start) offer_start();
   int idle = 0, failures = 0;
   while (!(best_.error() <= aim)) {
     const bool is_good = best_.IsGood();

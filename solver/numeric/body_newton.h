@@ -51,6 +51,7 @@ class BodyNewton {
   int failures = kFailures;    // proximal problems that Newton's method may not solve
   int steps = kSteps;          // of Newton's method for a proximal problem
   BestForces::Measure measure = BestForces::Measure::kStrict;  // of errors
+  bool measures_start = true;  // and stays there, if it is a solution; false: only where nothing else is found
 
   // With `start` (rows x 1, N) it begins there.
   RunEnd<> Run(const Problem& problem, const Vector* start = nullptr);
