@@ -159,7 +159,7 @@ void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded
                 ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
   const ExactVector a = Accelerations(problem, answer.f);
-  if (a.isZero() || (rounded != nullptr && CannotRest(*rounded, a))) return;
+  if (a.isZero(0) || (rounded != nullptr && CannotRest(*rounded, a))) return;
   auto rest = ForcesAtRest(problem, answer.f, a);
   if (!rest) return PreferLessMotion(problem, request, answer);
   answer.f = std::move(rest->f);
