@@ -8,7 +8,7 @@
 namespace stiction {
 namespace {
 
-constexpr int kSteps = 120, kIdleSteps = 20;
+constexpr int kSteps = 120, kIdleSteps = 20, kWeakSteps = 6;
 constexpr double kJudgeBelow = 1e-6;  // tau from which on forces are judged
 constexpr double kLeastTau = 1e-28;
 constexpr int kPatience = 6;  // attempts after which what is loose has to do
@@ -19,21 +19,19 @@ constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolis
 
 }  // namespace
 
-// The first ends nearly all, each of the others about half of the rest. After the last those but the first few
-// follow again, with other weights.
+// The first ends nearly all, the next two half of the rest each, and a curve most of what is left. After the
+// last the curves follow again, with other weights.
 const std::array<InteriorPoint::Attempt, InteriorPoint::kTurnCount> InteriorPoint::kTurns = {{
     {},
     {.delta = 1e-6, .first = 0.1, .spread = 0.5},
     {.delta = 1e-7, .kappa = 1},
-    {.first = 0.1, .spread = 0.5, .kappa = 10, .curve = true},
-    {.step = 0.7, .delta = 1e-7, .kappa = 1},
-    {.delta = 1e-7, .first = 10, .spread = 0.5, .kappa = 10},
-    {.delta = 1e-7, .spread = 0.5},
-    {.delta = 1e-9, .spread = 0.5, .kappa = 1},
-    {.first = 100, .spread = 0.5, .kappa = 1},
-    {.delta = 1e-7, .spread = 0.5, .kappa = 100},
-    {.step = 0.7, .spread = 0.5},
-    {.step = 0.95, .delta = 1e-7, .spread = 1, .kappa = 100},
+    {.first = 100, .spread = 0.5, .kappa = 1, .curve = true},
+    {.delta = 1e-7, .first = 10, .spread = 0.5, .kappa = 10, .curve = true},
+    {.delta = 1e-7, .spread = 0.5, .curve = true},
+    {.curve = true},
+    {.delta = 1e-7, .kappa = 1, .curve = true},
+    {.step = 0.95, .delta = 1e-7, .spread = 1, .kappa = 100, .curve = true},
+    {.step = 0.7, .spread = 0.5, .curve = true},
 }};
 
 RunEnd<> InteriorPoint::Run(const Problem& problem) {
@@ -58,7 +56,8 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
     if (best_.error() <= (i < kPatience ? residual : std::max(residual, loose))) break;
     ++verdict_.statistics[Counter::kStarts];
     Begin(kTurns[i < kTurnCount ? i : kFirstTurns + (i - kTurnCount) % (kTurnCount - kFirstTurns)]);
-    attempt_.curve ? FollowCurve() : Follow();
+    if (attempt_.curve) FollowCurve();
+    if (!(best_.error() <= aim)) Follow();
     Finish(i + 1 == most);
   }
   if (best_.f().size() != problem.rows()) best_.Offer(f_);
@@ -73,7 +72,7 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
 
 // Where contacts slide there may be no solution; and large problems are not tried for ever.
 int InteriorPoint::MostAttempts() const {
-  constexpr int kSliding = 3, kLeast = 6, kRowsInAll = 20000;
+  constexpr int kSliding = 5, kLeast = 6, kRowsInAll = 20000;
   const bool slides = std::ranges::any_of(
       problem_->contacts, [](const auto& contact) { return contact.kind == ContactKind::kSliding; });
   return slides ? kSliding : std::clamp(kRowsInAll / std::max(1, problem_->rows()), kLeast, kAttempts);
@@ -154,12 +153,13 @@ void InteriorPoint::Offer() {
   end_ = snapped;
 }
 
-// The path of the attempt, to its end.
+// The path of the attempt, from where it is to its end.
 void InteriorPoint::Follow() {
   constexpr double kFalls = 0.3, kShort = 0.02;
   double mark = std::numeric_limits<double>::infinity();
   int since = 0, weak = 0;
-  for (int step = 0; step < kSteps && !request_.limits.Stopped(); ++step) {
+  const int patience = attempt_.curve ? 3 : 1;  // near the end of a curve
+  for (int step = 0; step < patience * kSteps && !request_.limits.Stopped(); ++step) {
     const double tau = MeanProduct();
     ++verdict_.statistics[Counter::kIterations];
     if (!std::isfinite(tau)) return;
@@ -171,7 +171,7 @@ void InteriorPoint::Follow() {
       Offer();
       if (best_.error() <= aim) return;
     }
-    if (step - since > kIdleSteps || weak > 6 || tau < kLeastTau) return;
+    if (step - since > patience * kIdleSteps || weak > patience * kWeakSteps || tau < kLeastTau) return;
     TakeResiduals();
     ++verdict_.statistics[Counter::kFactorizations];
     if (!matrix_.Factor(D_, false)) return;

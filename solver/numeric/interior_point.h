@@ -23,8 +23,8 @@
 //            Newton's method mostly finds one.
 //   attempts other weights, starts and deltas, where neither ends in a solution. No proof of an end.
 //   curve    some paths turn back: past a fold tau has to rise before it falls, and no step to a smaller tau
-//            gets there. So one attempt goes by the length of the curve of all (v, f, pairs, tau), along its
-//            tangent, and returns to it across the tangent by Newton's method (E. L. Allgower, K. Georg,
+//            gets there. So later attempts go by the length of the curve of all (v, f, pairs, tau), along its
+//            tangent, and return to it across the tangent by Newton's method (E. L. Allgower, K. Georg,
 //            Numerical Continuation Methods, 1990). Lengths are relative changes of the pairs and of tau.
 //
 // Called solved are forces whose errors (problem/errors.h) are at most `residual`; whatever else is undecided,
@@ -99,7 +99,7 @@ class InteriorPoint {
     double kappa = 30;    // weight of slip beside normals
     bool curve = false;   // by its length
   };
-  static constexpr int kTurnCount = 12, kFirstTurns = 4;
+  static constexpr int kTurnCount = 10, kFirstTurns = 3;
   static const std::array<Attempt, kTurnCount> kTurns;
 
   int MostAttempts() const;
