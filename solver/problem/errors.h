@@ -402,9 +402,17 @@ class ErrorMeter {
  private:
   template <class Problem, class Vector>
   void TakeSizes(const Problem& problem, const Vector& f) {
-    ForEachEntry(problem.A, [&](int i, int j, const auto& x) {
+    const auto add = [&](int i, int j, const auto& x) {
       if (f[j] != 0) size_[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
-    });
+    };
+    if constexpr (requires { problem.A.ForEachOfHalf(add); }) {
+      problem.A.ForEachOfHalf([&](int i, int j, const auto& x) {
+        add(i, j, x);
+        if (i != j) add(j, i, x);
+      });
+    } else {
+      ForEachEntry(problem.A, add);
+    }
     ForEachContact(problem, [&](int, int row, int count) {
       const Scalar free = TangentLength(problem.b, row, count);
       unit_[row] = Abs(Scalar(problem.b[row])) + theta_ * size_[row];

@@ -55,6 +55,25 @@ class FactoredMatrix {
   // visit(i, j, A_ij) for the entries that a shared velocity makes, row by row. The matrices are compressed.
   template <class Visit>
   void ForEach(Visit visit) const {
+    ForEachOf<false>(visit);
+  }
+  // Of these those with j <= i: A is symmetric.
+  template <class Visit>
+  void ForEachOfHalf(Visit visit) const {
+    ForEachOf<true>(visit);
+  }
+
+  // visit(i, A_ij) for the rows that share a velocity with row j.
+  template <class Visit>
+  void ForEachInColumn(int j, Visit visit) const {
+    const Eigen::SparseVector<Scalar> column = J_ * Eigen::SparseVector<Scalar>(JW_.row(j).transpose());
+    for (typename Eigen::SparseVector<Scalar>::InnerIterator entry(column); entry; ++entry)
+      visit(static_cast<int>(entry.index()), entry.value());
+  }
+
+ private:
+  template <bool kIsHalf, class Visit>
+  void ForEachOf(Visit visit) const {
     const int *begin = JW_.outerIndexPtr(), *of = JW_.innerIndexPtr();
     const int *column = columns_.outerIndexPtr(), *other = columns_.innerIndexPtr();
     const Scalar *x = JW_.valuePtr(), *y = columns_.valuePtr();
@@ -66,6 +85,7 @@ class FactoredMatrix {
       for (int p = begin[i]; p < begin[i + 1]; ++p) {
         for (int q = column[of[p]]; q < column[of[p] + 1]; ++q) {
           const int j = other[q];
+          if (kIsHalf && j > i) break;
           if (last[j] == i) {
             row[j] += x[p] * y[q];
             continue;
@@ -79,15 +99,6 @@ class FactoredMatrix {
     }
   }
 
-  // visit(i, A_ij) for the rows that share a velocity with row j.
-  template <class Visit>
-  void ForEachInColumn(int j, Visit visit) const {
-    const Eigen::SparseVector<Scalar> column = J_ * Eigen::SparseVector<Scalar>(JW_.row(j).transpose());
-    for (typename Eigen::SparseVector<Scalar>::InnerIterator entry(column); entry; ++entry)
-      visit(static_cast<int>(entry.index()), entry.value());
-  }
-
- private:
   Rows J_;
   Matrix W_;
   Rows JW_;
