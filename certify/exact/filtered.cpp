@@ -150,14 +150,20 @@ namespace {
 
 // Empty where a sign is unsure.
 template <class Number>
-std::optional<Verdict> TryPublished(const ExactProblem& problem, const Request& request,
-                                    ExactDependentRows& rows) {
+std::optional<OnRung> TryPublished(const ExactProblem& problem, const Request& request,
+                                   ExactDependentRows& rows, Rung rung) {
   thread_local PublishedAlgorithm<Ball<Number>> algorithm;
   EnclosedRows<Number> dependent(rows);
   algorithm.request() = request;
   algorithm.KnowDependentRows(kAsksForDependentRows<Number> ? &dependent : nullptr);
+  Trace<Ball<Number>> trace;
+  trace.keep_pivots = rung == Rung::kExact;  // whose runs are dear
   try {
-    return algorithm.Run(Converted<Ball<Number>>(problem, &BallAround<Number>));
+    OnRung run = {algorithm.Run(Converted<Ball<Number>>(problem, &BallAround<Number>), &trace), rung, true};
+    if (run.verdict.outcome != Outcome::kSolved)
+      for (const Pivot<Ball<Number>>& pivot : trace.pivots)
+        run.pivots.push_back(Converted<double>(pivot, &Approximation<Ball<Number>>::Of));
+    return run;
   } catch (const UnsureSign&) {
     return std::nullopt;
   }
@@ -173,17 +179,18 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const Request& request,
   const ExactProblem& remaining = remainder.problem();
   ExactDependentRows rows(remaining);
   if (rungs.first == Rung::kDouble) {
-    if (const auto verdict = TryPublished<double>(remaining, request, rows))
-      return {*verdict, Rung::kDouble, /*by_balls=*/true};
+    if (auto run = TryPublished<double>(remaining, request, rows, Rung::kDouble)) return *std::move(run);
   }
   if (rungs.first < Rung::kExact) {
     if (Rung::kDoubleDouble <= rungs.last) {
-      if (const auto verdict = TryPublished<dd_real>(remaining, request, rows))
-        return {*verdict, Rung::kDoubleDouble, /*by_balls=*/true};
+      if (auto run = TryPublished<dd_real>(remaining, request, rows, Rung::kDoubleDouble))
+        return *std::move(run);
     }
     if (Rung::kExact == rungs.last && remaining.rows() >= kLongFrom) {
-      if (const auto verdict = TryPublished<LongFloat>(remaining, request, rows))
-        return {*verdict, Rung::kExact, /*by_balls=*/true};
+      if (auto run = TryPublished<LongFloat>(remaining, request, rows, Rung::kExact)) {
+        if (&remaining != &problem) run->pivots.clear();  // in other rows
+        return *std::move(run);
+      }
     }
   }
   if (rungs.last != Rung::kExact || !rungs.with_rationals)

@@ -28,6 +28,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "certify/exact/solve.h"
 #include "corpus/exact_problem.h"
@@ -60,6 +61,8 @@ struct OnRung {
   Verdict verdict;
   Rung rung = Rung::kExact;
   bool by_balls = false;  // not by rationals
+  // Of a run over long floats that is not solved, on a problem without other kinds; otherwise empty.
+  std::vector<Pivot<double>> pivots = {};
 };
 
 // The published algorithm. Requires dimension 2. A thread keeps the memory of its runs.

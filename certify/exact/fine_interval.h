@@ -6,7 +6,7 @@
 //
 // With slopes F' over the box, F(x) is in F(0) + F' x for every x in it (mean value theorem). After every
 // operation the ends are drawn in to that: so a box of many rounds of an algorithm is not overestimated in
-// proportion to its size.
+// proportion to its size. Slopes are intervals of doubles, since they say how wide, not where.
 //
 // Bits   those of the thread, from the making of a FineBits to its end: no number outlives it.
 
@@ -34,20 +34,39 @@ class FineBits {
   int before_;
 };
 
+// The largest absolute value.
+inline double SizeOf(const Interval& slope) { return std::max(-slope.inf(), slope.sup()); }
+
 // Integers over 2^bits.
 struct FineEnds {
   mpz_class low, high;
 
   bool AreZero() const { return low == 0 && high == 0; }
-  mpz_class Largest() const { return low + high >= 0 ? high : mpz_class(-low); }  // absolute value
+  // A double below, or above.
+  Interval Rounded() const { return {Rounded(low, -1), Rounded(high, 1)}; }
   FineEnds operator-() const { return {-high, -low}; }
   friend FineEnds operator+(const FineEnds& x, const FineEnds& y) { return {x.low + y.low, x.high + y.high}; }
   friend FineEnds operator*(const FineEnds& x, const FineEnds& y);
+
+ private:
+  static double Rounded(const mpz_class& x, int side) {
+    constexpr int kLeast = -1000, kMost = 1000;  // exponents of doubles end beyond
+    if (x == 0) return 0;
+    signed long exponent = 0;
+    double part = mpz_get_d_2exp(&exponent, x.get_mpz_t());  // toward zero
+    const bool outward = sgn(x) == side;
+    exponent -= FineBits::Now();
+    if (exponent > kMost) Unsure<Interval>::Refuse();
+    if (exponent < kLeast) return outward ? std::ldexp(side, kLeast) : 0;
+    const bool is_exact = mpz_sizeinbase(x.get_mpz_t(), 2) - mpz_scan1(x.get_mpz_t(), 0) <= 53;
+    if (outward && !is_exact) part = std::nextafter(part, 2 * side);
+    return std::ldexp(part, static_cast<int>(exponent));
+  }
 };
 
 class FineInterval {
  public:
-  using Slopes = std::vector<FineEnds>;  // by coordinate; those that are not listed are zero
+  using Slopes = std::vector<Interval>;  // by coordinate; those that are not listed are zero
 
   FineInterval() = default;
   FineInterval(int x)  // NOLINT(google-explicit-constructor): a scalar
@@ -79,23 +98,24 @@ class FineInterval {
   }
   // Zero everywhere in the box.
   bool IsZero() const {
-    return ends_.AreZero() &&
-           std::all_of(slopes_.begin(), slopes_.end(), [](const auto& s) { return s.AreZero(); });
+    return ends_.AreZero() && std::ranges::all_of(slopes_, [](const Interval& s) { return IsSurelyZero(s); });
   }
 
   FineInterval operator-() const {
     FineInterval result = *this;
     result.ends_ = -ends_;
     result.centre_ = -centre_;
-    for (FineEnds& slope : result.slopes_) slope = -slope;
+    for (Interval& slope : result.slopes_) slope = -slope;
     return result;
   }
   friend FineInterval operator+(const FineInterval& x, const FineInterval& y) {
+    if (x.slopes_.empty() && y.slopes_.empty()) return FineInterval(x.ends_ + y.ends_);
     return DrawnIn(x.ends_ + y.ends_, x.AtCentre() + y.AtCentre(), Sum(x.slopes_, y.slopes_));
   }
   friend FineInterval operator-(const FineInterval& x, const FineInterval& y) { return x + -y; }
   friend FineInterval operator*(const FineInterval& x, const FineInterval& y) {
     if (x.IsZero() || y.IsZero()) return {};
+    if (x.slopes_.empty() && y.slopes_.empty()) return FineInterval(x.ends_ * y.ends_);
     return DrawnIn(x.ends_ * y.ends_, x.AtCentre() * y.AtCentre(),
                    Sum(Times(x.slopes_, y.ends_), Times(y.slopes_, x.ends_)));
   }
@@ -138,18 +158,19 @@ class FineInterval {
     mpz_fdiv_q(floor.get_mpz_t(), numerator.get_mpz_t(), x.get_den_mpz_t());
     return floor;
   }
-  static FineInterval Moving(FineEnds ends, const Rational& centre, int k, FineEnds slope) {
+  static FineInterval Moving(FineEnds ends, const Rational& centre, int k, const FineEnds& slope) {
     FineInterval moving(std::move(ends));
     moving.centre_ = Around(centre).ends_;
-    moving.slopes_.assign(k + 1, {0, 0});
-    moving.slopes_[k] = std::move(slope);
+    moving.slopes_.assign(k + 1, Interval(0));
+    moving.slopes_[k] = slope.Rounded();
     return moving;
   }
   static FineInterval DrawnIn(FineEnds ends, const FineEnds& centre, Slopes slopes) {
     FineInterval result(std::move(ends));
-    if (slopes.empty()) return result;
-    mpz_class far = 0;
-    for (const FineEnds& slope : slopes) far += slope.Largest();
+    Interval sum = 0;
+    for (const Interval& slope : slopes) sum += Interval(SizeOf(slope));
+    if (!std::isfinite(sum.sup())) Unsure<Interval>::Refuse();
+    const mpz_class far = Above(sum.sup());
     result.ends_.low = std::max<mpz_class>(result.ends_.low, centre.low - far);
     result.ends_.high = std::min<mpz_class>(result.ends_.high, centre.high + far);
     result.centre_ = centre;
@@ -157,13 +178,24 @@ class FineInterval {
     return result;
   }
   const FineEnds& AtCentre() const { return slopes_.empty() ? ends_ : centre_; }
+  // As an integer over 2^bits, or the next larger.
+  static mpz_class Above(double x) {
+    int exponent = 0;
+    mpz_class above = std::ldexp(std::frexp(x, &exponent), 53);
+    exponent += FineBits::Now() - 53;
+    if (exponent >= 0) return above << exponent;
+    mpz_cdiv_q_2exp(above.get_mpz_t(), above.get_mpz_t(), -exponent);
+    return above;
+  }
   static Slopes Times(Slopes slopes, const FineEnds& factor) {
-    for (FineEnds& slope : slopes) slope = slope * factor;
+    if (slopes.empty()) return slopes;
+    const Interval rounded = factor.Rounded();
+    for (Interval& slope : slopes) slope = IsSurelyZero(slope) ? slope : slope * rounded;
     return slopes;
   }
   static Slopes Sum(Slopes x, const Slopes& y) {
-    if (x.size() < y.size()) x.resize(y.size());
-    for (std::size_t k = 0; k < y.size(); ++k) x[k] = x[k] + y[k];
+    if (x.size() < y.size()) x.resize(y.size(), Interval(0));
+    for (std::size_t k = 0; k < y.size(); ++k) x[k] += y[k];
     return x;
   }
   static FineEnds Root(const FineEnds& x) {

@@ -171,6 +171,10 @@ class Walk {
   std::vector<std::vector<bool>> zeros_;
 };
 
+Interval SlopeOf(const FineInterval& x, int k) {
+  return static_cast<std::size_t>(k) < x.slopes().size() ? x.slopes()[k] : Interval(0);
+}
+
 // What the period makes of coordinates.
 struct Image {
   Coordinates x;
@@ -246,13 +250,9 @@ class FineProblem {
 
   // The same ends and derivatives.
   static bool Same(const FineInterval& x, const FineInterval& y) {
-    const auto slope = [](const FineInterval& z, std::size_t k) {
-      return k < z.slopes().size() ? z.slopes()[k] : FineEnds();
-    };
-    const auto equal = [](const FineEnds& a, const FineEnds& b) { return a.low == b.low && a.high == b.high; };
-    bool same = equal(x.ends(), y.ends());
-    for (std::size_t k = 0; k < std::max(x.slopes().size(), y.slopes().size()); ++k)
-      same &= equal(slope(x, k), slope(y, k));
+    bool same = x.ends().low == y.ends().low && x.ends().high == y.ends().high;
+    for (int k = 0; k < static_cast<int>(std::max(x.slopes().size(), y.slopes().size())); ++k)
+      same &= SlopeOf(x, k).is_same(SlopeOf(y, k));
     return same;
   }
 
@@ -281,16 +281,15 @@ Rational DistanceTo(const FineInterval& x, const Rational& point) {
 }
 
 // Along the whole of a side.
-Rational SteepestOf(const FineInterval& x, std::size_t k) {
-  return k < x.slopes().size() ? FineInterval::Over(x.slopes()[k].Largest()) : Rational(0);
-}
+Rational SteepestOf(const FineInterval& x, int k) { return Rational(SizeOf(SlopeOf(x, k))); }
 
-// A coordinate that may leave the box, and how far from the centre it may come; empty if none does.
-std::optional<std::pair<int, Rational>> LeavesBox(const Image& middle, const Image& image,
+// A coordinate that may leave the box, and how far from the centre it may come; empty if none does. `middle`:
+// the image of the centre, or null, as if that stayed where it is.
+std::optional<std::pair<int, Rational>> LeavesBox(const Image* middle, const Image& image,
                                                   const ExactVector& centre, const ExactVector& radii) {
   for (int i = 0; i < centre.size(); ++i) {
     if (image.untouched[i]) continue;
-    Rational reach = DistanceTo(middle.x[i], centre[i]);
+    Rational reach = middle == nullptr ? Rational(0) : DistanceTo(middle->x[i], centre[i]);
     for (int k = 0; k < centre.size(); ++k) reach += SteepestOf(image.x[i], k);
     if (reach > radii[i]) return std::pair(i, reach);
   }
@@ -314,14 +313,10 @@ Rational OfPlaces(const Rational& x, int places) {
   return result;
 }
 
-FineInterval SlopeOf(const FineInterval& x, int k) {
-  return static_cast<std::size_t>(k) < x.slopes().size() ? FineInterval(x.slopes()[k]) : FineInterval();
-}
-
 // Whether every matrix of derivatives in the box is regular, by the coordinates that move.
 bool IsInjective(const Image& image, const std::vector<int>& moving) {
   const int size = static_cast<int>(moving.size());
-  Elimination<FineInterval> slopes;
+  Elimination<Interval> slopes;
   slopes.Resize(size, size);
   for (int i = 0; i < size; ++i) {
     for (int k = 0; k < size; ++k) slopes(i, k) = SlopeOf(image.x[moving[i]], moving[k]);
@@ -515,7 +510,7 @@ class LoopSearch {
         if (image.untouched[i]) continue;
         rest[i] = ToDouble(Rational(image.x[i].Middle() - c[i]));
         for (std::size_t k = 0; k < image.x[i].slopes().size(); ++k)
-          M(i, static_cast<int>(k)) -= Approximation<FineInterval>::Of(FineInterval(image.x[i].slopes()[k]));
+          M(i, static_cast<int>(k)) -= Approximation<Interval>::Of(image.x[i].slopes()[k]);
       }
       const Eigen::VectorXd move = M.partialPivLu().solve(rest);
       if (!move.allFinite()) break;
@@ -556,14 +551,18 @@ class LoopSearch {
     const int size = static_cast<int>(fixed.size());
     const ExactVector centre =
         fixed.unaryExpr([&](const Rational& x) { return OfPlaces(x, places + kMoreBitsOfCentre); });
-    const Image middle = problem_.ImageOf(top.state, Points(centre), charts, period, kMostSteps);
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(size);
     for (int attempt = 0; attempt < 3; ++attempt) {
       ExactVector radii(size);
       for (int k = 0; k < size; ++k)
         radii[k] = OfPlaces(Rational(weights[k]) / (mpz_class(1) << places), places + kMoreBitsOfCentre);
       const Image image = problem_.ImageOf(top.state, BoxAround(centre, radii), charts, period, kMostSteps);
-      if (!LeavesBox(middle, image, centre, radii)) {
+      const auto stays = [&] {
+        if (LeavesBox(nullptr, image, centre, radii)) return false;
+        const Image middle = problem_.ImageOf(top.state, Points(centre), charts, period, kMostSteps);
+        return !LeavesBox(&middle, image, centre, radii);
+      };
+      if (stays()) {
         contracts_ = true;
         return Entered(top, charts, period, centre, radii, image);
       }
@@ -666,7 +665,7 @@ std::optional<Rejected> FaultOfBox(const FineProblem& problem, const Walk& walk,
   for (const Image& of : {middle, image}) {
     if (!Stands(loop.word, of.word, before)) return OtherStep(loop.word, of.word, before);
   }
-  if (const auto leaves = LeavesBox(middle, image, loop.centre, loop.radii))
+  if (const auto leaves = LeavesBox(&middle, image, loop.centre, loop.radii))
     return Rejected{fmt::format("radii[{}]", leaves->first), ToString(loop.radii[leaves->first]),
                     fmt::format("{:.3g}, as far as the period leads", ToDouble(leaves->second))};
   if (loop.punctured) return FaultOfTurnings(problem, state, loop, image);

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "search/generators/choices.h"
 #include "search/generators/generators.h"
@@ -71,18 +73,45 @@ Jacobian<Scalar, Rows> DrawIntegers(int rows, int columns, Choices& choices) {
   return J;
 }
 
+// Numbers entry(0), ..., entry(count - 1) as integers, and what they are over.
+template <class Scalar, class Entry>
+auto OverOneDenominator(int count, Entry entry) {
+  using Parts = Fractions<Scalar>;
+  std::pair<std::vector<typename Parts::Integer>, typename Parts::Integer> over = {{}, 1};
+  for (int k = 0; k < count; ++k) Parts::Include(over.second, entry(k));
+  for (int k = 0; k < count; ++k) over.first.push_back(Parts::Numerator(entry(k), over.second));
+  return over;
+}
+
+// The sum of products of such numbers: one common divisor is sought, not one for each.
+template <class Scalar, class Over>
+Scalar DotOf(const Over& x, const Over& y) {
+  typename Over::second_type sum = 0, under = x.second * y.second;
+  for (std::size_t k = 0; k < x.first.size(); ++k) Fractions<Scalar>::AddProduct(sum, x.first[k], y.first[k]);
+  return Fractions<Scalar>::Quotient(sum, under);
+}
+
 // A = L R', which is symmetric: L = J W, R = J.
 template <class Scalar, int Rows, class Factor>
 void SetProduct(const Factor& L, const Factor& R, int columns, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
+  if constexpr (kIsExact<Scalar>) {
+    std::vector<decltype(OverOneDenominator<Scalar>(0, [](int) { return Scalar(0); }))> left;
+    for (int i = 0; i < rows; ++i)
+      left.push_back(OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return L(i, k); }));
+    for (int j = 0; j < rows; ++j) {
+      const auto right = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return R(j, k); });
+      for (int i = j; i < rows; ++i) problem.A(i, j) = DotOf<Scalar>(left[i], right);
+    }
+    return;
+  }
   typename ContactProblem<Scalar, Rows>::Vector column(rows);
   for (int j = 0; j < rows; ++j) {
-    const int first = kIsExact<Scalar> ? j : 0;  // over doubles whole columns are faster
-    for (int i = first; i < rows; ++i) column[i] = L(i, 0) * R(j, 0);
+    for (int i = 0; i < rows; ++i) column[i] = L(i, 0) * R(j, 0);
     for (int k = 1; k < columns; ++k) {
-      for (int i = first; i < rows; ++i) column[i] += L(i, k) * R(j, k);
+      for (int i = 0; i < rows; ++i) column[i] += L(i, k) * R(j, k);
     }
-    for (int i = first; i < rows; ++i) problem.A(i, j) = column[i];
+    for (int i = 0; i < rows; ++i) problem.A(i, j) = column[i];
   }
 }
 
@@ -104,6 +133,14 @@ void SetGram(const Jacobian<Scalar, Rows>& J, int columns, ContactProblem<Scalar
 template <class Scalar, int Rows, class Factor, class Coefficient>
 void SetImage(const Factor& M, int columns, Coefficient y, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
+  if constexpr (kIsExact<Scalar>) {
+    const auto over = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return y(k); });
+    for (int i = 0; i < rows; ++i) {
+      const auto row = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return M(i, k); });
+      problem.b[i] = DotOf<Scalar>(row, over);
+    }
+    return;
+  }
   for (int i = 0; i < rows; ++i) problem.b[i] = Scalar(0);
   for (int k = 0; k < columns; ++k) {
     const Scalar coefficient = y(k);

@@ -118,8 +118,9 @@ void Examiner::Confirm(const Place& place, const ExactProblem& problem, const On
   const Spending spending(collector_.meter(), &ProcessorTime::compared);
   const Request request = {
       .policy = campaign_.policies[place.policy], .limits = campaign_.limits, .trace = true};
-  const InexactAnswer run = RunEnclosed("baraff", problem, request, filtered.rung);
-  if (!FindUnsolved(place, verdict, run.pivots, problem)) return;
+  const bool is_told = !filtered.pivots.empty();
+  const auto pivots = is_told ? filtered.pivots : RunEnclosed("baraff", problem, request, filtered.rung).pivots;
+  if (!FindUnsolved(place, verdict, pivots, problem)) return;
   // Records have an entry of what is compared beyond double-doubles, as where rationals decide.
   if (filtered.rung == Rung::kExact) collector_.agreement();
   const ExactAnswer complete = methods_.complete_filtered(problem, campaign_.limits);

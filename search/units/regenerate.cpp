@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/record/problem_file.h"
 #include "corpus/record/scene_file.h"
+#include "corpus/rounded.h"
 #include "search/generators/scenes.h"
 
 namespace stiction {
@@ -24,8 +27,18 @@ Regenerated Regenerate(const Campaign& campaign, std::int64_t unit, std::int64_t
 Regenerated Regenerate(const Campaign& campaign, const Task& task, std::int64_t unit, std::int64_t index) {
   Choices choices = ChoicesOf(campaign, unit, index);
   Regenerated made;
-  made.drawn = Generate<Rational, Eigen::Dynamic>(task.generator, task.contacts, SurroundingsOf(campaign),
-                                                  choices, made.problem);
+  const auto generate = [&](auto& problem) {
+    made.drawn = Generate(task.generator, task.contacts, SurroundingsOf(campaign), choices, problem);
+  };
+  const bool is_dyadic = std::ranges::all_of(
+      campaign.palette, [](const MuChoice& mu) { return (mu.denominator & (mu.denominator - 1)) == 0; });
+  if (!Row(task.generator).exact_in_double || !is_dyadic) {
+    generate(made.problem);
+    return made;
+  }
+  thread_local ContactProblem<double> doubles;  // the same numbers, much sooner
+  generate(doubles);
+  made.problem = Unrounded(doubles);
   return made;
 }
 

@@ -201,7 +201,7 @@ TEST_CASE("filtered: loops are proved without rationals where a force that was g
     const ExactRun exact = RunExact(problem, {});
     const auto is_left = [&](int row) { return exact.sets[row] == IndexSet::kNone && exact.f[row] != 0; };
     CHECK((is_left(1) || is_left(3) || is_left(5)));
-    const auto [verdict, rung, by_balls] =
+    const auto [verdict, rung, by_balls, pivots] =
         RunPublishedFiltered(problem, {}, {Rung::kDoubleDouble, Rung::kDoubleDouble});
     CHECK(by_balls);
     CHECK(verdict.outcome == Outcome::kCycle);
@@ -218,7 +218,7 @@ TEST_CASE("filtered: where a direction has a singular system, rationals tell it"
     const Verdict exact = RunExact(problem, {}).verdict;
     if (exact.statistics.singular_directions == 0) continue;
     CAPTURE(index);
-    const auto [verdict, rung, by_balls] =
+    const auto [verdict, rung, by_balls, pivots] =
         RunPublishedFiltered(problem, {}, {Rung::kDoubleDouble, Rung::kDoubleDouble});
     singular += by_balls;
     if (by_balls) {
@@ -253,7 +253,8 @@ TEST_CASE("filtered: of problem after problem the verdict is that of rationals, 
         const Verdict exact = RunExact(problem, request).verdict;
         for (const Rung first : {Rung::kDouble, Rung::kDoubleDouble, Rung::kExact}) {
           CAPTURE(name, generator.name, index, Name(first));
-          const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, request, {.first = first});
+          const auto [verdict, rung, by_balls, pivots] =
+              RunPublishedFiltered(problem, request, {.first = first});
           CHECK(verdict.outcome == exact.outcome);
           CHECK(verdict.statistics == exact.statistics);
           CHECK(verdict.start == exact.start);
@@ -272,12 +273,12 @@ TEST_CASE("filtered: of problem after problem the verdict is that of rationals, 
 TEST_CASE("filtered: floats of 512 bits decide what double-doubles leave open, as rationals do") {
   const Rungs narrow = {Rung::kDouble, Rung::kDoubleDouble};
   const Rungs wide = {Rung::kDoubleDouble, Rung::kExact, /*with_rationals=*/false};
-  int decided = 0;
+  int decided = 0, told = 0;
   for (int index = 0; index < 150; ++index) {
     const ExactProblem problem = Random<Rational>(GeneratorId::kConditioned, 8, index);
     CAPTURE(index);
     if (RunPublishedFiltered(problem, {}, narrow).by_balls) continue;
-    const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, {}, wide);
+    const auto [verdict, rung, by_balls, pivots] = RunPublishedFiltered(problem, {}, wide);
     CHECK(by_balls == (verdict.outcome != Outcome::kUndecided));
     if (!by_balls) continue;
     ++decided;
@@ -290,8 +291,15 @@ TEST_CASE("filtered: floats of 512 bits decide what double-doubles leave open, a
     const InexactAnswer path = RunEnclosed("baraff", problem, {.trace = true}, rung);
     CHECK(path.outcome == exact.outcome);
     CHECK(static_cast<std::int64_t>(path.pivots.size()) == exact.statistics.steps);
+    REQUIRE(pivots.size() == (exact.outcome == Outcome::kSolved ? 0 : path.pivots.size()));
+    for (std::size_t k = 0; k < pivots.size(); ++k) {
+      CHECK(pivots[k].limiting == path.pivots[k].limiting);
+      CHECK(pivots[k].f == path.pivots[k].f);
+    }
+    told += !pivots.empty();
   }
   CHECK(decided > 2);
+  CHECK(told > 0);
 }
 
 TEST_CASE("filtered: complete driving counts as over rationals, and its forces solve the problem") {
@@ -352,7 +360,7 @@ TEST_CASE("filtered: accelerations that follow from others are known to be zero,
     problem.b = J * y;
     CAPTURE(seed);
     const Verdict exact = RunExact(problem, {}).verdict;
-    const auto [verdict, rung, by_balls] = RunPublishedFiltered(problem, {});
+    const auto [verdict, rung, by_balls, pivots] = RunPublishedFiltered(problem, {});
     CHECK(verdict.outcome == exact.outcome);
     CHECK(verdict.statistics == exact.statistics);
     wide += rung == Rung::kDoubleDouble;

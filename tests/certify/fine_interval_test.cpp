@@ -26,8 +26,8 @@ bool Encloses(const FineInterval& x, const Rational& value) { return x.Low() <= 
 bool EnclosesChange(const OverBox& x, const ExactVector& moves) {
   Rational low = 0, high = 0;
   for (int k = 0; k < static_cast<int>(x.fine.slopes().size()); ++k) {
-    const Rational one = FineInterval::Over(x.fine.slopes()[k].low) * moves[k];
-    const Rational other = FineInterval::Over(x.fine.slopes()[k].high) * moves[k];
+    const Rational one = Rational(x.fine.slopes()[k].inf()) * moves[k];
+    const Rational other = Rational(x.fine.slopes()[k].sup()) * moves[k];
     low += std::min(one, other);
     high += std::max(one, other);
   }
@@ -83,11 +83,11 @@ TEST_CASE("fine interval: a root is enclosed as narrowly as the bits allow, and 
   CHECK(Encloses(root, Rational(3, 2)));
   CHECK(root.Low() * root.Low() <= centre - radius);
   CHECK(root.High() * root.High() >= centre + radius);
-  CHECK(FineInterval::Over(root.slopes()[0].low) <= radius / 3);
-  CHECK(FineInterval::Over(root.slopes()[0].high) >= radius / 3);
+  CHECK(Rational(root.slopes()[0].inf()) <= radius / 3);
+  CHECK(Rational(root.slopes()[0].sup()) >= radius / 3);
   const FineInterval at_once = sqrt(FineInterval::Variable(0, centre));
-  CHECK(FineInterval::Over(at_once.slopes()[0].low) <= Rational(1, 3));
-  CHECK(FineInterval::Over(at_once.slopes()[0].high) >= Rational(1, 3));
+  CHECK(Rational(at_once.slopes()[0].inf()) <= Rational(1, 3));
+  CHECK(Rational(at_once.slopes()[0].sup()) >= Rational(1, 3));
   CHECK(at_once.High() - at_once.Low() <= 1 / Rational(mpz_class(1) << 100));
   const FineInterval two = sqrt(FineInterval(2));
   CHECK(two.High() - two.Low() <= 1 / Rational(mpz_class(1) << 100));
@@ -117,6 +117,18 @@ TEST_CASE("fine interval: what the ends leave open throws") {
   CHECK_FALSE(FineInterval(1) < FineInterval(1));
   CHECK(Sign(FineInterval(0)) == 0);
   CHECK_FALSE(IsSurelyZero(third - third));
+}
+
+TEST_CASE("fine interval: slopes below the doubles are not taken for zero, and beyond them nothing is told") {
+  const FineBits bits(2304);
+  const auto side = [](int exponent) {
+    const Rational power(mpz_class(1) << std::abs(exponent));
+    return FineInterval::Side(0, 1, exponent < 0 ? Rational(1 / power) : power);
+  };
+  const FineInterval least = side(-1500) - FineInterval(1);
+  CHECK_FALSE(IsSurelyZero(least.slopes()[0]));
+  CHECK(least.High() >= 1 / Rational(mpz_class(1) << 1500));
+  CHECK_THROWS_AS(side(1500), UnsureComparison);
 }
 
 TEST_CASE("fine interval: more bits make a narrower number, and the bits before come back") {
