@@ -40,6 +40,8 @@ inline constexpr std::array kSuites = {
     Suite{"scenes",
           "frames a second of the scenes of a folder, minimal and full models, or one thread and more", "",
           kMaxContacts, ""},
+    Suite{"frames", "those of studies: lines of JSON, of the problems of --families and of each scene", "",
+          kMaxContacts, ""},
     Suite{"peers", "stiction beside other packages, by the program stiction-peers",
           "of each number of contacts (default 400)", kMostOfAnySuite,
           "full half planar planar-half space space-half structure growth-frictionless growth-planar "
@@ -66,7 +68,7 @@ struct BenchOptions {
   std::int64_t seed = 1;
   std::string generator;                 // empty: all
   std::string scenes = "corpus/scenes";  // folder
-  std::vector<std::string> families;     // of problems with structure; empty: all
+  std::vector<std::string> families;     // of problems with structure, empty: all; levels of frames
   int threads = 1;                       // of a simulation, of `silent`
   bool json = false;
 };
@@ -78,6 +80,7 @@ int BenchSilent(const BenchOptions& options);    // gate.cpp: exit 1 where an an
 int BenchGate(const BenchOptions& options);      // likewise
 int BenchGateCost(const BenchOptions& options);  // gate_cost.cpp
 int BenchScenes(const BenchOptions& options);    // scenes.cpp
+int BenchFrames(const BenchOptions& options);    // likewise
 // Becomes the program stiction-peers, which stands beside this one (bench/peers).
 int BenchPeers(const BenchOptions& options, std::string_view tables);
 

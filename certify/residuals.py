@@ -68,8 +68,7 @@ def of_json(data):
     data = data.get("problem", data)
     A, b = of_factors(data["factors"]) if "factors" in data else (data["A"], [number(x) for x in data["b"]])
     if "contacts" in data:
-        contacts = [Contact(one["kind"], number(one.get("mu", 0)), [number(x) for x in as_list(one.get("slip", []))])
-                    for one in data["contacts"]]
+        contacts = contacts_of(data)
     else:
         mu = data["mu"]
         count = len(mu) if isinstance(mu, list) else None
@@ -91,6 +90,11 @@ def of_json(data):
             for j, x in enumerate(row):
                 problem.add(i, j, number(x))
     return problem
+
+
+def contacts_of(data):
+    return [Contact(one["kind"], number(one.get("mu", 0)), [number(x) for x in as_list(one.get("slip", []))])
+            for one in data["contacts"]]
 
 
 def of_factors(factors):
@@ -329,13 +333,14 @@ def over(value, unit):
 
 
 class Judge:
-    """One set of forces: a, s by rows."""
+    """One set of forces: a, s by rows. `a`: where it is known better than A is, to some noise."""
 
-    def __init__(self, problem, f, theta):
-        self.problem, self.f, self.theta = problem, f, theta
-        exact = [Fraction(x) for x in f]
-        self.a = [float(sum((Fraction(x) * exact[j] for j, x in row.items() if f[j]), Fraction(b)))
-                  for row, b in zip(problem.A, problem.b)]
+    def __init__(self, problem, f, theta, a=None, noise=0.0):
+        self.problem, self.f, self.theta, self.a, self.noise = problem, f, theta, a, noise
+        if a is None:
+            exact = [Fraction(x) for x in f]
+            self.a = [float(sum((Fraction(x) * exact[j] for j, x in row.items() if f[j]), Fraction(b)))
+                      for row, b in zip(problem.A, problem.b)]
         self.s, self.columns = [], [[] for _ in f]
         for i, row in enumerate(problem.A):
             self.s.append(theta * math.fsum(abs(x * f[j]) for j, x in row.items()))
@@ -348,6 +353,9 @@ class Judge:
             for i in tangents:
                 self.s[i] += math.hypot(*[problem.b[t] for t in tangents])
 
+    def beyond(self, x):
+        return max(0.0, abs(x) - self.noise)
+
     def noticed(self, j):
         """What force j does to the row that notices it most."""
         return max((over(x * abs(self.f[j]), self.s[i]) for i, x in self.columns[j]), default=0.0) if self.f[j] else 0.0
@@ -358,18 +366,19 @@ class Judge:
         kind, row = problem.contacts[k], problem.first[k]
         rest = range(row + 1, row + problem.rows_of(kind))
         if kind.kind == "bilateral":
-            return over(abs(a[row]), s[row]), {row: abs(a[row])}, []
+            return over(self.beyond(a[row]), s[row]), {row: self.beyond(a[row])}, []
         ghosts = [j for j in (row, *rest) if f[j]]
-        opened = max([over(max(0.0, -a[row]), s[row])] + [self.noticed(j) for j in ghosts])
+        sinks = self.beyond(min(0.0, a[row]))
+        opened = max([over(sinks, s[row])] + [self.noticed(j) for j in ghosts])
         pulls = self.noticed(row) if f[row] < 0 else 0.0
-        missed = {row: abs(a[row])}
-        closed, of_friction = max(over(abs(a[row]), s[row]), pulls), 0.0
+        missed = {row: self.beyond(a[row])}
+        closed, of_friction = max(over(missed[row], s[row]), pulls), 0.0
         if kind.kind in ("static", "sliding"):
             of_friction, of_rows = self.friction(kind, row, rest)
             missed |= of_rows
             closed = max([closed, of_friction] + [over(x, s[i]) for i, x in of_rows.items()])
         if opened < closed:
-            return 0.0, {row: -a[row]}, ghosts
+            return 0.0, {row: sinks}, ghosts
         return of_friction, missed, [row] if f[row] < 0 else []
 
     def friction(self, kind, row, rest):
@@ -382,10 +391,10 @@ class Judge:
         force = math.hypot(*fF)
         if limit == 0:
             return NONE if force else 0.0, {}
-        sticks = over(max(0.0, force - limit), limit), dict(zip(rest, map(abs, aF)))
+        sticks = over(max(0.0, force - limit), limit), dict(zip(rest, map(self.beyond, aF)))
 
         def against(t):  # aF = -t fF
-            return [abs(x + t * y) for x, y in zip(aF, fF)]
+            return [self.beyond(x + t * y) for x, y in zip(aF, fF)]
 
         tried = [0.0]
         lines = [(x / u, y / u) for x, y, u in zip(aF, fF, unit) if u > 0 and y]

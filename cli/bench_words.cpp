@@ -48,8 +48,9 @@ void AddBenchWords(Verb& verb, BenchOptions& o) {
   verb.Option("--seed", o.seed, "of the problems")
       .Range(0, static_cast<double>(std::numeric_limits<std::int64_t>::max()));
   verb.Option("-g,--generator", o.generator, "search: this one alone").OneOf(NamesOf(Generators()));
-  verb.Option("--scenes", o.scenes, "scenes, structure: the folder");
-  verb.Option("--families", o.families, "structure, engines, problems, silent, gate: these alone");
+  verb.Option("--scenes", o.scenes, "scenes, frames, structure: the folder");
+  verb.Option("--families", o.families,
+              "structure, engines, problems, silent, gate: these alone; frames: levels");
   verb.Option("-t,--threads", o.threads,
               "scenes: above 1, so many threads beside one, minimal models both; silent: so many")
       .Range(1, 1024);

@@ -359,16 +359,17 @@ int RunSimulate(const SimulateCommand& o, const SceneFileIn<Kind>& file) {
   const double seconds = o.seconds ? *o.seconds : SecondsOf(file, o.scene);
   const SceneIn<Kind, double> scene = RoundedScene(file, o.scene);
   SimulationWriter<Kind> writer(o);
-  std::function<void(const FrameProblem&)> observe;
+  std::function<void(const FrameProblemIn<Kind>&)> observe;
   if (!o.problems.empty()) {
     const std::string scene_name = fs::path(file.scene.name).filename().string();  // may hold anything
     observe = [&o, &file, &writer, scene_name, frame = std::int64_t{-1},
-               number = 0](const FrameProblem& met) mutable {
+               number = 0](const FrameProblemIn<Kind>& met) mutable {
       const char* level = kLevelNames[static_cast<int>(met.level)];
       number = met.frame == frame ? number + 1 : 1;  // a frame can ask for several of one level and island
       frame = met.frame;
       const std::string name = fmt::format("{}-{:05}-{:02}-{}.json", scene_name, frame, number, level);
-      WriteProblem(writer.Place(fs::path(o.problems) / name), file.scene.name, met.frame, level, met.problem);
+      WriteProblem(writer.Place(fs::path(o.problems) / name), file.scene.name, met.frame, level,
+                   met.model.Problem(met.island));
     };
   }
   const std::atomic<bool>& interrupted = Interruption();

@@ -21,8 +21,8 @@ using namespace stiction;
 
 // By the name of a suite that stiction-bench measures itself.
 const std::map<std::string_view, int (*)(const BenchOptions&)> kFunctions = {
-    {"search", BenchSearch}, {"problems", BenchProblems},  {"silent", BenchSilent},
-    {"gate", BenchGate},     {"gate-cost", BenchGateCost}, {"scenes", BenchScenes}};
+    {"search", BenchSearch},      {"problems", BenchProblems}, {"silent", BenchSilent}, {"gate", BenchGate},
+    {"gate-cost", BenchGateCost}, {"scenes", BenchScenes},     {"frames", BenchFrames}};
 
 int RunBench(const BenchOptions& o) {
   const auto suite = std::find_if(kSuites.begin(), kSuites.end(), [&o](auto& s) { return s.name == o.suite; });

@@ -86,7 +86,7 @@ SceneAnswer SolveIsland(SceneSolver& solver, const Model& model, Level level, st
 
 template <class Kind>
 SimulationIn<Kind>::SimulationIn(SceneType scene, double step, double rest,
-                                 std::function<void(const FrameProblem&)> observe)
+                                 std::function<void(const FrameProblemIn<Kind>&)> observe)
     : scene_(std::move(scene)), frame_step_(step), observe_(std::move(observe)), solvers_() {
   const double gravity = scene_.gravity.norm();
   size_ = SizeOf(scene_);
@@ -225,7 +225,6 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, bool is_last, Fo
     ++statistics_.problems;
     statistics_.rows += rows;
     largest = std::max(largest, rows);
-    if (observe_) observe_({statistics_.frames, level, static_cast<int>(i), model.Problem(i)});
   }
 
   std::vector<SceneAnswer> answers(open.size());
@@ -241,6 +240,8 @@ bool SimulationIn<Kind>::Solve(const Model& model, Level level, bool is_last, Fo
   for (std::size_t k = 0; k < open.size(); ++k) {
     SceneAnswer& answer = answers[k];
     const std::size_t i = open[k];
+    if (observe_)
+      observe_({statistics_.frames, level, static_cast<int>(i), model, answer.f, answer.Solved() || is_last});
     statistics_.fallbacks += answer.counters[Counter::kFallbacks];
     statistics_.loose += answer.counters[Counter::kLoose];
     statistics_.sparse += answer.counters[Counter::kSparse];

@@ -114,13 +114,17 @@ void ForEachField(S& s, Visit visit) {
   visit("deep", "frames that ran out of halvings", s.deep);
 }
 
-// A problem that a frame met, and where.
-struct FrameProblem {
+// A problem that a frame met, an island of its model, and its answer.
+template <class Kind>
+struct FrameProblemIn {
   std::int64_t frame = 0;  // from 0
   Level level = Level::kForces;
   int island = 0;
-  const ContactProblem<double>& problem;
+  const ModelIn<Kind, double>& model;
+  const Eigen::VectorXd& f;  // rows x 1, of the level; where it is undecided the best, or empty
+  bool is_taken = true;      // or it was undecided, and asked again with every contact static
 };
+using FrameProblem = FrameProblemIn<Plane>;
 
 // A problem that was not solved: its best forces are those of the step.
 struct UndecidedProblem {
@@ -173,9 +177,9 @@ class SimulationIn {
 
   // Requires a finite scene. Steps are of this length, s. Speeds up to `rest`, m/s, count as at rest, whatever
   // the scene says; 0: what gravity makes in one step, without gravity a thousandth of the scene's size a
-  // second. `observe` sees every problem before it is solved.
+  // second. `observe` sees every problem once it is solved.
   explicit SimulationIn(SceneType scene, double step = 1.0 / 60, double rest = 0,
-                        std::function<void(const FrameProblem&)> observe = {});
+                        std::function<void(const FrameProblemIn<Kind>&)> observe = {});
 
   void Step();
 
@@ -239,7 +243,7 @@ class SimulationIn {
 
   SceneType scene_;
   double frame_step_;
-  std::function<void(const FrameProblem&)> observe_;
+  std::function<void(const FrameProblemIn<Kind>&)> observe_;
   tbb::enumerable_thread_specific<SceneSolver> solvers_;
   SimulationStatistics statistics_;
   double size_ = 1;          // SizeOf the scene

@@ -9,7 +9,6 @@ two checkers refuse it once a number of its witness is altered."""
 import json
 import os
 import random
-import subprocess
 import sys
 import tempfile
 from fractions import Fraction
@@ -56,14 +55,6 @@ def problems(o, folder):
         yield f"`{name}`", Path(os.environ["STICTION_DATA"]) / "friction" / f"{name}.dat"
 
 
-def run(command, *words):
-    """Exit code, processor seconds."""
-    process = subprocess.Popen([*map(str, command), *map(str, words)], stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_utime + usage.ru_stime
-
-
 def altered(certificate):
     """The same, with the last number of the forces, or of the entries of J, that is not zero a millionth larger."""
     witness = certificate["witness"]
@@ -77,16 +68,16 @@ def altered(certificate):
 def rows(o, folder):
     proof, other = folder / "proof.json", folder / "altered.json"
     for name, problem in problems(o, folder):
-        code, made = run([study.PROGRAM, "certify"], problem, "-o", proof)
+        code, made = study.process(study.PROGRAM, "certify", problem, "-o", proof)
         if code != 0:
             raise ValueError(f"{name}: certify ends with exit {code}, expected 0")
         certificate, size = json.loads(proof.read_text()), proof.stat().st_size
-        codes, checked = zip(*(run(checker, proof) for checker in CHECKERS))
+        codes, checked = zip(*(study.process(*checker, proof) for checker in CHECKERS))
         if any(codes):
             raise ValueError(f"{name}: a checker refuses what certify wrote")
         contacts, claim = len(certificate["problem"]["contacts"]), certificate["claim"]
         other.write_text(json.dumps(altered(certificate)))
-        refused = sum(run(checker, other)[0] == 1 for checker in CHECKERS)
+        refused = sum(study.process(*checker, other)[0] == 1 for checker in CHECKERS)
         yield name, contacts, f"`{claim}`", size / 1024, made, *checked, f"{refused} of 2"
 
 

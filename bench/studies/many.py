@@ -20,7 +20,7 @@ def arrays(generator, contacts, o):
 
 
 def runs():
-    for method in ("complete", "fast", "lemke"):
+    for method in ("auto", "complete", "fast", "lemke"):
         yield f"`solve_many`, `{method}`, doubles", lambda A, b, m=method: stiction.solve_many(A, b, 1, method=m)
     yield "`replay_many`, doubles", lambda A, b: stiction.replay_many(A, b, 1, arithmetic="double")
     yield "`replay_many`, rationals", lambda A, b: stiction.replay_many(A, b, 1)

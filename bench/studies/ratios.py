@@ -2,11 +2,14 @@
 """What certified outcomes cost beside doubles, and what staged suspicions save a search.
 
 Certified outcomes: as `trade` measures them, the median of `filtered` and of `exact` by that of `double`, by family; and
-how many runs needed rationals. Searches: processor time of a
-campaign whose suspicions, and one problem in 5,000, are decided by certified signs, and of one that decides every
-problem over rationals."""
+how many runs needed rationals. Walls of COURSESxBRICKS at rest: processor time of `solve` and `certify`, whole processes
+that end at --limit seconds. Searches: processor time of a campaign whose suspicions, and one problem in 5,000, are
+decided by certified signs, and of one that decides every problem over rationals."""
 
+import json
+import tempfile
 import time
+from pathlib import Path
 
 import stiction
 import study
@@ -25,6 +28,18 @@ def certified(o):
                    study.share(filtered["decided_on"][-1], problems))
 
 
+def walls(o):
+    with tempfile.TemporaryDirectory(prefix="stiction-walls-") as folder:
+        file = Path(folder, "wall.json")
+        for wall in o.walls:
+            blocks = study.wall(*map(int, wall.split("x")))
+            for dimension, where in ((2, "plane"), (3, "space")):
+                file.write_text(json.dumps(study.scene("wall", dimension, blocks, 1)))
+                ends = [study.process(study.PROGRAM, *words, limit=o.limit) for words in (
+                    ("solve", file), ("certify", file, "-o", Path(folder, "proof.json")))]
+                yield wall, where, len(blocks), *(seconds if code == 0 else f"exit {code}" for code, seconds in ends)
+
+
 def seconds(generator, contacts, arithmetic, o):
     """Processor time of the same campaign, finishing apart."""
     start = time.process_time()
@@ -35,9 +50,11 @@ def seconds(generator, contacts, arithmetic, o):
 
 
 def main():
-    o = study.options(__doc__, contacts=[2, 4, 6, 8], problems=30, searched=1000, repeat=3, seed=1)
+    o = study.options(__doc__, contacts=[2, 4, 6, 8], problems=30, searched=1000, repeat=3, seed=1,
+                      walls=["6x5", "10x10"], limit=60)
     study.show(["method", "contacts", "family", "problems", "doubles, microseconds", "certified, times doubles",
                 "rationals, times doubles", "needed rationals, 95 %"], certified(o))
+    study.show(["wall", "in", "bodies", "`solve`, s", "`certify`, s"], walls(o))
     rows = []
     for generator in ("conditioned", "near-degenerate"):
         for contacts in o.contacts:

@@ -2,10 +2,14 @@
 """What the studies share: their options, problems, times, and tables in Markdown."""
 
 import argparse
+import json
 import os
 import random
 import resource
+import subprocess
 import sys
+import tempfile
+from pathlib import Path
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")  # numpy reads them when it is loaded, Ipopt's process too
 
@@ -119,6 +123,60 @@ def contradictions(runs):
         refuted[places] |= np.isin(run["outcome"], ("ray", "no-solution"))
         wrong[places] |= run.get("residual", np.zeros(len(places))) > 0
     return int((is_solved & refuted | wrong).sum())
+
+
+# ---- Processes -----------------------------------------------------------------------------------------------
+
+
+def started(*words, limit, stdout=subprocess.PIPE):
+    """It is killed after so many processor seconds."""
+    return subprocess.Popen([str(word) for word in words], stdout=stdout, stderr=subprocess.DEVNULL,
+                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
+
+
+def process(*words, limit=3600):
+    """Exit code, processor seconds."""
+    program = started(*words, limit=limit, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(program.pid, 0)
+    program.returncode = os.waitstatus_to_exitcode(status)
+    return program.returncode, usage.ru_utime + usage.ru_stime
+
+
+# ---- Scenes, and their frames ---------------------------------------------------------------------------------
+
+
+def block(x, up, y=0, edges=(31 / 32, 1 / 2, 1 / 2), speed=0, **more):
+    """A box at (x, y, up), y aside; of edges along these; with a speed along x."""
+    return {"mass": 1, "position": [x, y, up], "velocity": [speed, 0, 0], "shapes": [{"box": list(edges)}], **more}
+
+
+def wall(courses, bricks, x=0):
+    """In running bond; every second course has a brick less."""
+    return [block(x + k + course % 2 / 2, 0.25 + course / 2)
+            for course in range(courses) for k in range(bricks - course % 2)]
+
+
+def scene(name, dimension, blocks, seconds, mu=0.5):
+    """Of blocks on a floor, stepped 240 times a second; in the plane without y."""
+    floor = {"fixed": True, "position": [0, 0, -1], "shapes": [{"box": [400, 400, 2]}]}
+    bodies = [{"name": f"block-{k}", **one} for k, one in enumerate([floor, *blocks])]
+    if dimension == 2:
+        bodies = [one | {key: one[key][::2] for key in ("position", "velocity") if key in one}
+                  | {"shapes": [{"box": one["shapes"][0]["box"][::2]}]} for one in bodies]
+    return {"format": "stiction-scene", "version": 1, "name": name, "dimension": dimension, "mu": mu,
+            "gravity": [0, 0, -10][-dimension:], "step": "1/240", "seconds": seconds, "bodies": bodies}
+
+
+def frames(of, *levels, limit=600):
+    """Lines of `stiction-bench --suite frames`: problems of these levels with their forces, and last the scene's; without
+    it where the process ends otherwise or needs more processor seconds."""
+    with tempfile.TemporaryDirectory(prefix="stiction-frames-") as folder:
+        Path(folder, "scene.json").write_text(json.dumps(of))
+        words = ["--families", *levels] if levels else []
+        with started(PROGRAM + "-bench", "--suite", "frames", "--scenes", folder, *words, limit=limit) as program:
+            for line in program.stdout:
+                if line.endswith(b"\n"):
+                    yield json.loads(line)
 
 
 # ---- Numbers and tables --------------------------------------------------------------------------------------

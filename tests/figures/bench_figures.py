@@ -40,6 +40,9 @@ method_times = study("methods")
 frictionless = study("frictionless")
 smallest = study("smallest", "--entries", 3)
 linear_algebra = study("linear-algebra")
+impacts = study("impacts")
+motion = study("motion")
+many = study("many")
 
 
 def space(program):

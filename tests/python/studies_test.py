@@ -201,10 +201,15 @@ class Studies(unittest.TestCase):
             self.assertGreater(row["qp us"][1], row["lu us"])
 
     def test_ratios(self):
-        runs, searches = tables("ratios", "--contacts", 2, "--problems", 3, "--searched", 200, "--repeat", 1)
+        runs, walls, searches = tables("ratios", "--contacts", 2, "--problems", 3, "--searched", 200, "--repeat", 1,
+                                       "--walls", "2x2", "--limit", 100)
         self.assertEqual({row["method"] for row in runs}, {"`complete`", "`baraff`"})
         for row in runs:
             self.assertGreater(float(row["rationals, times doubles"].replace(",", "")), 1)
+        self.assertEqual([(row["wall"], row["in"], row["bodies"]) for row in walls],
+                         [("2x2", "plane", "3"), ("2x2", "space", "3")])
+        for row in walls:
+            self.assertGreater(float(row["`solve`, s"]) + float(row["`certify`, s"]), 0)  # both end with an answer
         self.assertEqual([row["search of"] for row in searches], ["`conditioned`", "`near-degenerate`"])
 
     def test_large_certificates(self):
@@ -221,11 +226,40 @@ class Studies(unittest.TestCase):
 
     def test_many(self):
         rows, = tables("many", "--contacts", 3, "--problems", 400, "--repeat", 2)
-        self.assertEqual(len(rows), 5)
+        self.assertEqual(len(rows), 6)
         for row in rows:
             library, python = whole(row["library, problems a core second"]), whole(row["Python"])
             self.assertGreater(library, python)
             self.assertGreater(float(row["ratio: median (90 %)"].split()[0]), 0.3)
+
+    def test_impacts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            options = ("--scenes", 4, "--bodies", 5, 12, "--seconds", 0.15)
+            problems, scenes, worst = tables("impacts", *options, "--keep", folder)
+            for row in worst:  # judged again over fractions, on A rounded to doubles
+                file = Path(folder, row["the worst"])
+                done = subprocess.run([sys.executable, SOURCES / "certify/residuals.py", f"{file}.problem.json",
+                                       f"{file}.answer.json"], text=True, capture_output=True)
+                found, said = (float(done.stdout.replace(";", "").split()[k]) for k in (1, -1))
+                self.assertAlmostEqual(found, said, delta=1e-8 + said / 10, msg=done.stdout)
+        again, *_ = tables("impacts", *options)
+        self.assertEqual(problems, again)
+        self.assertEqual({row["problems"] for row in problems}, set(row["problems"] for row in worst))
+        self.assertIn("impulses", {row["problems"] for row in problems})
+        self.assertEqual(sum(int(row["how many"]) for row in scenes), 4)
+        self.assertEqual(sum(int(row["not ended"]) for row in scenes), 0)
+        for strict, beyond, lenient in zip(*(problems[k::3] for k in range(3))):
+            self.assertEqual([row["error"] for row in (strict, beyond, lenient)], ["strict", "less noise", "lenient"])
+            self.assertLess(float(beyond["worst"]), float(strict["worst"]))
+            self.assertEqual(lenient["above 1e-5, 95 %"].split()[0], "0", lenient)
+
+    def test_motion(self):
+        rows, = tables("motion", "--walls", 2, 4, "--walls-in-space", 2, "--piles", 5, 9)
+        self.assertEqual([(row["scene"], row["bodies"]) for row in rows], [
+            ("wall", "4"), ("wall", "15"), ("wall", "exponent"), ("wall in space", "4"), ("pile", "6"), ("pile", "10"),
+            ("pile", "exponent")])
+        for row in rows:
+            self.assertEqual(len([cell for cell in row.values() if cell]), 5, row)
 
     def test_linear_algebra(self):
         systems, runs = tables("linear_algebra", "--contacts", 2, "--sizes", 3, 8, "--problems", 5)

@@ -134,7 +134,11 @@ TEST_CASE("simulate: where nothing collides a collision elsewhere changes nothin
   const auto observe = [&collisions](const FrameProblem& met) {
     if (met.level != Level::kImpulses) return;
     ++collisions;
-    CHECK(met.problem.contacts.size() == 2);
+    const auto problem = met.model.Problem(met.island);
+    CHECK(problem.contacts.size() == 2);
+    // Its forces are given: both corners stop.
+    REQUIRE(met.f.size() == problem.rows());
+    CHECK((problem.A * met.f + problem.b).cwiseAbs().maxCoeff() < 1e-12);
   };
   Simulation both(scene, 1.0 / 60, 0, observe);
   for (int i = 0; i < 100; ++i) both.Step();
@@ -670,7 +674,8 @@ TEST_CASE("simulate: joined and given pairs of fixed bodies are in no problem, f
 TEST_CASE("simulate: every problem is shown, and the same run twice is the same") {
   std::int64_t seen = 0;
   Simulation simulation(SceneInDoubles("falling-boxes"), 1.0 / 60, 0, [&seen](const FrameProblem& met) {
-    CHECK(met.problem.rows() > 0);
+    CHECK(met.f.size() == met.model.islands[met.island].rows);
+    CHECK(met.f.size() > 0);
     ++seen;
   });
   for (int i = 0; i < 100; ++i) simulation.Step();
