@@ -51,7 +51,8 @@ FEATURES = {  # that came later: their commits, and the most lines that they may
     "names in pages, checked": ("c67bc00d", 20),
     "paths that turn back": ("6f8cc96f 739bc4ff 6e1d3dcd aff9b16b", 200),
     "suspicions told by balls": ("84438361", 140),
-    "lifting, and a stop everywhere": ("d199f604 06783930 427eac08 25c5070a", 400)}
+    "lifting, and a stop everywhere": ("d199f604 06783930 427eac08 25c5070a", 400),
+    "certificates from factors": ("1b08c91f", 400)}
 JSON_HEADERS = ("nlohmann/json.hpp",)
 GENERATED = re.compile(r"reports/(examples|web/dist|web/solver)/|.*\.(svg|png|pdf|wasm)(\.gz)?$")
 PROOFS = ("certify/condition_number.md", "certify/coq/README.md", "certify/existence.md", "certify/related_work.md",
