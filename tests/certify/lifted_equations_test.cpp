@@ -64,7 +64,8 @@ TEST_CASE("lifted equations: independent rows are the first, and reduced rows ma
     INFO("rank " << rank);
     std::vector<int> first;
     for (int i = 0; i < M.rows(); ++i) {
-      if (RankOf(M.topRows(i + 1)) > std::ssize(first)) first.push_back(i);
+      const ExactMatrix top = M.topRows(i + 1);
+      if (RankOf(top * top.transpose()) > std::ssize(first)) first.push_back(i);
     }
     CHECK(IndependentRows(M.sparseView()) == first);
     const auto [pivots, reduced] = ReducedRows(M.transpose());
