@@ -200,7 +200,8 @@ int RunCertify(const CertifyOptions& o) {
         "certify: found --robust with --all, --safe or -o, expected it alone: it writes no certificate");
   if (o.coq && (o.all || o.safe || o.robust))
     throw InputError("certify: found --coq with --all, --safe or --robust, expected it with --claim");
-  const ProblemFile file = ReadProblem(o.file);
+  ProblemFile file = ReadProblem(o.file);
+  file.problem = InFactors(file);
   if (o.all) return ListSolutions(o, file);
   if (o.safe) return ShowSafety(o, file);
   if (o.robust) return ShowRadius(o, file);

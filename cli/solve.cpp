@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "certify/exact/answer_json.h"
-#include "certify/exact/bodies.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "cli/command_line.h"
@@ -186,9 +185,7 @@ void PrintForPeople(const SolveVerb& o, const AnyProblem& problem, const Solutio
 using Answered = std::pair<Json, int>;  // what was asked of one file, and the exit code
 
 Answered SolveRead(const SolveVerb& o, const std::atomic<bool>& stopped) {
-  const ProblemFile file = ReadProblem(o.file, kAnyRows);
-  // `auto` takes the factors of a scene for nothing that it would not do without.
-  const AnyProblem problem = IsOfBodies(o.method) ? InFactors(file) : file.problem;
+  const AnyProblem problem = InFactors(ReadProblem(o.file, kAnyRows));
   Request request = RequestOf(o, problem, o.file);
   request.limits.stop = &stopped;
   const Solution solution = SolveAsked(problem, request, o.file);

@@ -157,7 +157,7 @@ int Survey(const SurveyVerb& o) {
     bar.Show(static_cast<double>(entries.size()) / static_cast<double>(files.size()),
              fmt::format("{} of {}: {}", entries.size() + 1, files.size(), file.filename().string()));
     try {
-      Json entry = Surveyed(ReadProblem(file, kAnyRows).problem, o.limits, o.rows, o.suspicions);
+      Json entry = Surveyed(InFactors(ReadProblem(file, kAnyRows)), o.limits, o.rows, o.suspicions);
       entry["file"] = file.string();
       bar.Clear();
       if (!o.json) PrintSurveyed(entry);

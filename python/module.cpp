@@ -23,7 +23,6 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/exact/answer_json.h"
-#include "certify/exact/bodies.h"
 #include "certify/exact/neighbour.h"
 #include "certify/exact/solve.h"
 #include "certify/request/request.h"
@@ -64,6 +63,11 @@ class PythonProblem {
 
   const ProblemFile& file() const { return file_; }
   const AnyProblem& problem() const { return file_.problem; }
+  // As methods take it, by a caller that holds the lock.
+  const AnyProblem& in_factors() {
+    if (!in_factors_) in_factors_ = InFactors(file_);
+    return *in_factors_;
+  }
   // InputError above kMostDenseRows.
   const ExactProblem& dense() const {
     RequireFewRows(file_.problem, kSource);
@@ -82,6 +86,7 @@ class PythonProblem {
 
  private:
   ProblemFile file_;
+  std::optional<AnyProblem> in_factors_;
   ContactProblem<double> doubles_;  // A and b alone
 };
 
@@ -261,7 +266,7 @@ py::object SolveProblem(PythonProblem& problem, const std::string& method, const
   wanted.request.sides = sides;
   SetNumbers(wanted.request.limits, numbers);
   SetNumbers(wanted.request.tolerances, numbers);
-  const AnyProblem asked = IsOfBodies(method) ? InFactors(problem.file()) : problem.problem();
+  const AnyProblem& asked = problem.in_factors();
   Request request = RequestOf(wanted, asked, kSource);
   return ToPython(Interruptible(seconds, [&](const std::atomic<bool>* stop) {
     request.limits.stop = stop;
@@ -296,16 +301,20 @@ py::tuple SolveProblems(const std::vector<PythonProblem*>& problems, const std::
   SetNumbers(wanted.request.limits, numbers);
   wanted.request.confirm = confirm;
   for (const auto* some : {&problems, &judged}) {
-    for (PythonProblem* problem : *some) problem->dense();
+    for (PythonProblem* problem : *some) {
+      problem->dense();
+      problem->in_factors();
+    }
   }
   const Ends ends = Interruptible(0, [&](const std::atomic<bool>* stop) {
     Ends all;
     for (PythonProblem* problem : problems) {
       if (*stop) break;
-      Request request = RequestOf(wanted, problem->problem(), kSource);
+      const AnyProblem& asked = problem->in_factors();
+      Request request = RequestOf(wanted, asked, kSource);
       request.limits.stop = stop;
       Stopwatch watch;
-      const Solution solution = SolveAsked(problem->problem(), request, kSource, &watch);
+      const Solution solution = SolveAsked(asked, request, kSource, &watch);
       all.seconds.push_back(watch.Seconds());
       if (!judged.empty())
         all.residuals.push_back(LargestErrorOf(judged[all.outcomes.size()]->dense(), request, solution));
@@ -430,9 +439,10 @@ py::object CertifyProblem(PythonProblem& problem, const std::string& claim, cons
   Wanted wanted{.policy = policy, .law = law, .dashes = ""};
   SetNumbers(wanted.request.limits, numbers);
   const ExactProblem& dense = problem.dense();
+  const ExactFactors* factors = problem.in_factors().factors();
   Json answer = Interruptible(0, [&](const std::atomic<bool>* stop) {
     wanted.request.limits.stop = stop;
-    return CertificateOf(claim, wanted, dense, kSource, problem.problem().factors());
+    return CertificateOf(claim, wanted, dense, kSource, factors);
   });
   Json& certificate = answer["certificate"];
   if (certificate.is_object()) certificate = JsonText(certificate, 1) + "\n";

@@ -110,6 +110,12 @@ ContactProblem<Scalar> DenseProblemOf(const std::vector<BodyDynamics<Scalar, Dof
   return problem;
 }
 
+// Of a sparse matrix over rationals; over doubles the pattern is that of what touches, and orderings are kept.
+template <class Scalar>
+bool IsLeftOut(const Scalar& entry) {
+  return kIsExact<Scalar> && entry == 0;
+}
+
 // The blocks of the island's bodies, which are matrix(body), as one sparse matrix.
 template <class Scalar, int Dof, class Block>
 Eigen::SparseMatrix<Scalar> BlockDiagonal(const Island& island, const Block& matrix) {
@@ -121,8 +127,9 @@ Eigen::SparseMatrix<Scalar> BlockDiagonal(const Island& island, const Block& mat
     const auto& block = matrix(island.bodies[column / Dof]);
     const int k = column % Dof, begin = column - k;
     blocks.startVec(column);
-    for (int i = k < kMoves ? k : kMoves; i < (k < kMoves ? k + 1 : Dof); ++i)
-      blocks.insertBack(begin + i, column) = block(i, k);
+    for (int i = k < kMoves ? k : kMoves; i < (k < kMoves ? k + 1 : Dof); ++i) {
+      if (!IsLeftOut(block(i, k))) blocks.insertBack(begin + i, column) = block(i, k);
+    }
   }
   blocks.finalize();
   return blocks;
@@ -151,7 +158,9 @@ FactoredProblem<Scalar> FactoredProblemOf(const std::vector<BodyDynamics<Scalar,
       J.startVec(at);
       for (const int side : {lower, 1 - lower}) {
         if (first[ends[side]] < 0) continue;
-        for (int k = 0; k < Dof; ++k) J.insertBack(at, first[ends[side]] + k) = row.J[side][k];
+        for (int k = 0; k < Dof; ++k) {
+          if (!IsLeftOut(row.J[side][k])) J.insertBack(at, first[ends[side]] + k) = row.J[side][k];
+        }
       }
       ++at;
     }

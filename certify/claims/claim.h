@@ -37,8 +37,9 @@ struct Claim {
   void (*require)(const ExactProblem&, const std::string& source) = RequireAny;
   std::string_view proves = {};  // in words, of solutions; empty for what speaks of something else
   bool negative = false;         // whether it says that another claim is false
-  // The certificate whose witness are factors of the problem; null where they show nothing.
-  SharedJson (*by_factors)(const ExactProblem&, const ExactFactors&) = nullptr;
+  // The certificate that factors of the problem make: as its witness, or by forces that they are solved for.
+  // Null where they show nothing.
+  SharedJson (*by_factors)(const ExactProblem&, const ExactFactors&, const Request&) = nullptr;
 
   // By factors, of a problem that has some and where they show it, otherwise by `certify`, which is not null.
   ClaimAnswer Decide(const ExactProblem& problem, const Request& request, const std::vector<Policy>& policies,

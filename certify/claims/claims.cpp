@@ -24,7 +24,7 @@ ClaimAnswer Claim::Decide(const ExactProblem& problem, const Request& request,
                           const std::vector<Policy>& policies, const ExactFactors* factors,
                           const EnumerationWatch& watch) const {
   const bool tries = factors != nullptr && by_factors != nullptr;
-  const SharedJson found = tries ? by_factors(problem, *factors) : SharedJson();
+  const SharedJson found = tries ? by_factors(problem, *factors, request) : SharedJson();
   return found ? ByCertificate(found) : certify(problem, request, policies, watch);
 }
 

@@ -33,6 +33,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "certify/claims/existence.h"
+#include "certify/exact/bodies.h"
 #include "certify/exact/centring.h"
 #include "certify/exact/dependent_rows.h"
 #include "certify/exact/krawczyk.h"
@@ -322,9 +323,13 @@ void RequireDependence(const ExactProblem& problem, const std::vector<int>& kept
   const int rows = problem.rows();
   const auto entry = [&](int i, int j) -> const Rational& { return j < rows ? problem.A(i, j) : problem.b[i]; };
   for (const auto& [row, force] : fixed) {
+    std::vector<int> weighty;
+    for (int k = 0; k < force.weights.size(); ++k)
+      if (force.weights[k] != 0) weighty.push_back(k);
     for (int j = 0; j <= rows; ++j) {
       Rational sum = 0;
-      for (std::size_t k = 0; k < kept.size(); ++k) sum += force.weights[k] * entry(kept[k], j);
+      for (const int k : weighty)
+        if (entry(kept[k], j) != 0) sum += force.weights[k] * entry(kept[k], j);
       RequireEqual(sum, entry(row, j), fmt::format("witness.fixed: row {}, column {}", row, j));
     }
   }
@@ -386,6 +391,13 @@ Doubles::Vector ForcesNear(const Doubles& problem, const Limits& limits) {
   throw NothingShown{"no forces were found near which to look"};
 }
 
+// The same in factors: in the middle of their cones.
+Doubles::Vector ForcesOfBodies(const ExactFactors& factors, const Limits& limits) {
+  InexactAnswer answer = SolveByBodies(factors, {.method = kInteriorPoint, .limits = limits});
+  if (!answer.Solved()) throw NothingShown{"no forces were found near which to look"};
+  return std::move(answer.f);
+}
+
 // Of every contact, the largest of its rows.
 struct ContactUnits {
   std::vector<double> force, acceleration;
@@ -444,6 +456,20 @@ Doubles::Vector ColumnOf(const Doubles& problem, const Layout& layout, int i, in
   return column;
 }
 
+// Whether all contacts that touch have their forces clearly inside of their cones.
+bool AreInside(const Doubles& problem, const Layout& layout, const Doubles::Vector& f,
+               const ContactUnits& units) {
+  for (std::size_t i = 0; i < layout.still.size(); ++i) {
+    const int row = layout.normal[i];
+    const double edge = 10 * kNondegenerate * units.force[i], mu = problem.contacts[i].mu;
+    const bool sticks = layout.behaviors[i] == Behavior::kStick;
+    const bool touches = layout.behaviors[i] != Behavior::kBreak && layout.behaviors[i] != Behavior::kHold;
+    if (touches && !(f[row] > edge)) return false;
+    if (sticks && !(mu * f[row] - TangentLength(f, row, 3) > std::min(1.0, mu) * edge)) return false;
+  }
+  return true;
+}
+
 // Forces of the rows with a = 0, in the order of `kept` with nothing fixed: inside their cones, if others with
 // the same accelerations are.
 Eigen::VectorXd CentredForces(const Doubles& problem, const Layout& layout, const Doubles::Vector& f,
@@ -472,8 +498,18 @@ Eigen::VectorXd CentredForces(const Doubles& problem, const Layout& layout, cons
   return scale * Centred(z / scale, unfelt, cones);
 }
 
+// The rows of (A b), or those of (J c), of which the same follow from others.
+ExactMatrix RowsOf(const ExactProblem& problem, const ExactFactors* factors) {
+  const int rows = problem.rows(), last = factors != nullptr ? static_cast<int>(factors->w.size()) : rows;
+  ExactMatrix M(rows, last + 1);
+  M.leftCols(last) = factors != nullptr ? ExactMatrix(factors->A.J()) : problem.A;
+  M.col(last) = factors != nullptr ? factors->c : problem.b;
+  return M;
+}
+
 // Fixes rows that follow from others; their forces are to be set.
-FixedForces FixDependent(const ExactProblem& problem, const Doubles& rounded, Layout& layout) {
+FixedForces FixDependent(const ExactProblem& problem, const ExactFactors* factors, const Doubles& rounded,
+                         Layout& layout) {
   const std::vector<int> zero = layout.kept;
   const int count = static_cast<int>(zero.size());
   if (count == 0) return {};
@@ -484,7 +520,7 @@ FixedForces FixDependent(const ExactProblem& problem, const Doubles& rounded, La
   for (int k = 0; k < count; ++k) ordered.push_back(zero[order[k]]);
   FixedForces forces;
   std::vector<bool> fixed(problem.rows(), false);
-  for (auto& [row, weights] : WeightsOfDependent(problem, ordered)) {
+  for (auto& [row, weights] : WeightsOfDependent(RowsOf(problem, factors), ordered)) {
     forces[row].weights = std::move(weights);
     fixed[row] = true;
   }
@@ -611,16 +647,18 @@ Json FindBox(const ExactProblem& problem, const Layout& layout, const FixedForce
   throw NothingShown{"Krawczyk's test fails in boxes of all sizes that were tried"};
 }
 
-Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
+Json CertifyBox(const ExactProblem& problem, const ExactFactors* factors, const Limits& limits) {
   const Doubles rounded = InDoubles(problem);
-  Doubles::Vector f = ForcesNear(rounded, limits);
+  Doubles::Vector f = factors != nullptr ? ForcesOfBodies(*factors, limits) : ForcesNear(rounded, limits);
   const Doubles::Vector a = rounded.A * f + rounded.b;
   const ContactUnits units = UnitsOf(rounded, f);
   Layout layout(problem, BehaviorsNear(problem, a, units));
-  const Eigen::VectorXd centred = CentredForces(rounded, layout, f, a);
+  const bool centred_already = factors != nullptr && AreInside(rounded, layout, f, units);
+  const Eigen::VectorXd centred =
+      centred_already ? Eigen::VectorXd(f(layout.kept)) : CentredForces(rounded, layout, f, a);
   for (std::size_t k = 0; k < layout.kept.size(); ++k) f[layout.kept[k]] = centred[k];
   if (!f.allFinite()) throw NothingShown{"no forces were found in the middle of those that are allowed"};
-  FixedForces fixed = FixDependent(problem, rounded, layout);
+  FixedForces fixed = FixDependent(problem, factors, rounded, layout);
   Doubles::Vector given = Doubles::Vector::Zero(f.size());
   for (auto& [row, force] : fixed) {
     force.f = Short(Rational(f[row]), PlacesOf(centred.cwiseAbs().maxCoeff(), 30));
@@ -635,11 +673,20 @@ Json CertifyBox(const ExactProblem& problem, const Limits& limits) {
   return FindBox(problem, layout, fixed, x, inverse);
 }
 
+SharedJson BoxByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request& request) {
+  if (problem.rows() <= MostExactRows(problem.dimension)) return {};
+  try {
+    return CertifyBox(problem, &factors, request.limits);
+  } catch (const NothingShown&) {
+    return {};
+  }
+}
+
 // Where no box is found, there may be no solution at all.
 ClaimAnswer OfCoulombExact(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
                            const EnumerationWatch& watch) {
   try {
-    return ByCertificate(CertifyBox(problem, request.limits));
+    return ByCertificate(CertifyBox(problem, nullptr, request.limits));
   } catch (const NothingShown& nothing) {
     const SharedJson found =
         DecideExistence(problem, {.law = FrictionLaw::kCoulomb, .limits = request.limits}, watch).certificate;
@@ -651,9 +698,10 @@ ClaimAnswer OfCoulombExact(const ExactProblem& problem, const Request& request, 
 }  // namespace
 
 ClaimRows CoulombExactClaims() {
-  static constexpr Claim kClaims[] = {Claim{
-      "coulomb-exact", CheckCoulombExact, "within a box there is a solution of Coulomb's law itself, in space",
-      OfCoulombExact, RequireSpace, "within a box there are forces that meet Coulomb's law"}};
+  static constexpr Claim kClaims[] = {
+      Claim{"coulomb-exact", CheckCoulombExact,
+            "within a box there is a solution of Coulomb's law itself, in space", OfCoulombExact, RequireSpace,
+            "within a box there are forces that meet Coulomb's law", false, BoxByFactors}};
   return {15, kClaims};
 }
 

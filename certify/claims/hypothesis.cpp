@@ -123,7 +123,7 @@ constexpr char kHypothesis[] = "h", kExists[] = "exists";
 
 // The claim of this name, where the factors show (H).
 template <const char* kClaim>
-SharedJson HypothesisByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+SharedJson HypothesisByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request&) {
   if (HasSlidingContact(problem) || FindDualConeViolation(problem, factors.c)) return {};
   return MakeCertificate(kClaim, problem, FactorsWitness(factors));
 }

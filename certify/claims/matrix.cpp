@@ -199,11 +199,11 @@ Json CheckNotInRange(const ExactProblem& problem, const Json& witness) {
   return Json::object();
 }
 
-SharedJson SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+SharedJson SemidefiniteByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request&) {
   return MakeCertificate("psd", problem, FactorsWitness(factors));
 }
 
-SharedJson RangeByFactors(const ExactProblem& problem, const ExactFactors& factors) {
+SharedJson RangeByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request&) {
   return IsInRangeByFactors(factors) ? MakeCertificate("in-range", problem, FactorsWitness(factors)) : Json();
 }
 

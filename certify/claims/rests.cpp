@@ -4,6 +4,7 @@
 
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
+#include "certify/exact/bodies.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/rest.h"
 #include "certify/exact/verify_solution.h"
@@ -27,6 +28,13 @@ Json OfRest(const ExactProblem& problem) {
   if (!rest.y) return "it hangs on a force at the edge of a friction cone";
   return MakeCertificate("cannot-rest", problem,
                          {{"y", ListJson(*rest.y)}, {"value", ToString(problem.b.dot(*rest.y))}});
+}
+
+SharedJson RestByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request& request) {
+  if (problem.rows() <= MostExactRows(problem.dimension)) return {};
+  const ExactAnswer answer = SolveByBodiesExactly(factors, request);
+  if (!answer.Solved() || !answer.a.isZero(0)) return {};
+  return MakeCertificate("rests", problem, {{"f", ListJson(answer.f)}});
 }
 
 ExactVector ReadFactor(const ExactProblem& problem, const Json& witness, const char* name) {
@@ -66,7 +74,8 @@ ClaimRows RestsClaims() {
             .meaning = "a solution with no acceleration: everything can stay at rest",
             .certify = Alone<OfRest>,
             .require = RequireNoneSlides,
-            .proves = "forces under which nothing accelerates"},
+            .proves = "forces under which nothing accelerates",
+            .by_factors = RestByFactors},
       Claim{.name = "cannot-rest",
             .check = CheckCannotRest,
             .meaning = "every solution accelerates something, if there is one",

@@ -6,6 +6,7 @@
 #include "certify/claims/certificate.h"
 #include "certify/claims/claim.h"
 #include "certify/claims/existence.h"
+#include "certify/exact/bodies.h"
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/json.h"
@@ -86,6 +87,24 @@ ClaimAnswer OfExistence(const ExactProblem& problem, const Request& request, con
   return ByCertificate(ExistsCertificate(problem), answer.reason + "; nor does the theorem speak of it");
 }
 
+// In the modes of the interior point method; of few rows other methods find shorter numbers.
+template <FrictionLaw kLaw>
+SharedJson SolutionByFactors(const ExactProblem& problem, const ExactFactors& factors, const Request& request) {
+  if (problem.rows() <= MostExactRows(problem.dimension)) return {};
+  const ExactAnswer answer = SolveByBodiesExactly(factors, request);
+  if (answer.bound && kLaw == FrictionLaw::kCoulomb)
+    return CoulombCertificate(problem, answer.f, *answer.bound);
+  if (!answer.Solved()) return {};
+  return FindViolation(problem, answer.f, answer.a) ? SharedJson() : SolutionCertificate(problem, answer.f);
+}
+
+SharedJson ExistenceByFactors(const ExactProblem& problem, const ExactFactors& factors,
+                              const Request& request) {
+  return request.law == FrictionLaw::kBaraff
+             ? SolutionByFactors<FrictionLaw::kBaraff>(problem, factors, request)
+             : SolutionByFactors<FrictionLaw::kCoulomb>(problem, factors, request);
+}
+
 // Of Coulomb's law the best bound that was found.
 template <FrictionLaw kLaw>
 ClaimAnswer ExistingUnder(const ExactProblem& problem, const Request& request, const std::vector<Policy>&,
@@ -100,12 +119,13 @@ ClaimRows SolutionClaims() {
       Claim{"existence", nullptr,
             "there is a solution: solution-exists, in space by default coulomb-solution (--law), exists; or "
             "no-solution",
-            OfExistence},
+            OfExistence, RequireAny, "", false, ExistenceByFactors},
       Claim{"solution-exists", CheckSolution, "forces that meet all conditions, in space (21), (22)",
-            ExistingUnder<FrictionLaw::kBaraff>, RequireAny, "forces that meet all conditions"},
+            ExistingUnder<FrictionLaw::kBaraff>, RequireAny, "forces that meet all conditions", false,
+            SolutionByFactors<FrictionLaw::kBaraff>},
       Claim{"coulomb-solution", CheckCoulomb, "the same for Coulomb's law, in space",
             ExistingUnder<FrictionLaw::kCoulomb>, RequireSpace,
-            "forces that meet Coulomb's law up to the bound"}};
+            "forces that meet Coulomb's law up to the bound", false, SolutionByFactors<FrictionLaw::kCoulomb>}};
   return {10, kClaims};
 }
 

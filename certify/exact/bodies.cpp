@@ -50,8 +50,10 @@ Answer<double> RunDense(const ContactProblem<double>& problem, const Request& re
 }  // namespace
 
 InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request) {
-  const Factored rounded = InDoubles(problem);
-  InexactAnswer answer = RunBodies(rounded, request);
+  return Judged(problem, request, RunBodies(InDoubles(problem), request));
+}
+
+InexactAnswer Judged(const ExactFactors& problem, const Request& request, InexactAnswer answer) {
   if (answer.f.size() != problem.rows() || !answer.f.allFinite()) {
     answer.f.resize(0);
     answer.outcome = Outcome::kUndecided;

@@ -27,6 +27,14 @@ inline bool IsOfBodies(std::string_view method) { return method == kNewtonBodies
 // Of the request, method (newton-bodies unless interior-point), residual and limits.stop are read. The best
 // forces that were found, with their errors, however it ends; none if they are not finite.
 InexactAnswer SolveByBodies(const ExactFactors& problem, const Request& request);
+// Any forces over doubles, with accelerations and errors; a solution as far as the residual of the request
+// goes.
+InexactAnswer Judged(const ExactFactors& problem, const Request& request, InexactAnswer answer);
+
+// The modes near the forces of the interior point method, unless newton-bodies is asked for, solved exactly: on
+// equations as many as the bodies' velocities at most, by p-adic lifting (linear_equations.h). solved, or
+// undecided; in space with `bound`, if any forces were found.
+ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request);
 
 // The rows of the table, for dense problems.
 Method<double> NewtonBodiesRow();

@@ -143,6 +143,8 @@ RangeDistance BoundRangeDistance(const AnyProblem& problem) {
 }
 
 bool IsRegularModuloPrime(const AnyProblem& problem) {
+  if (const auto* factors = problem.factors(); factors != nullptr && factors->w.size() < problem.rows())
+    return false;
   constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
   const mpz_class prime(std::to_string(kPrime));
   const auto multiply = [](std::uint64_t x, std::uint64_t y) {

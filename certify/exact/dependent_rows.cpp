@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/dependent_rows.h"
 
-#include <algorithm>
-#include <iterator>
-
+#include "certify/exact/linear_equations.h"
 #include "solver/linear/direction.ipp"
 
 namespace stiction {
@@ -53,30 +51,17 @@ void ExactDependentRows::ScaleToIntegers() {
   }
 }
 
-std::map<int, ExactProblem::Vector> WeightsOfDependent(const ExactProblem& problem,
-                                                       const std::vector<int>& listed) {
-  const int rows = problem.rows(), count = static_cast<int>(listed.size());
-  ExactProblem::Matrix columns(rows + 1, count);
-  const auto set = [&](int k, int row) { columns.col(k) << problem.A.row(row).transpose(), problem.b[row]; };
-  for (int k = 0; k < count; ++k) set(k, listed[k]);
-  Elimination<Rational> elimination;
-  elimination.Assign(columns);
-  elimination.Run(rows + 1, count, count);
-  std::vector<int> kept, others;
-  for (int k = 0; k < elimination.rank(); ++k) kept.push_back(listed[elimination.pivot_column(k)]);
-  std::ranges::sort(kept);
-  std::ranges::copy_if(listed, std::back_inserter(others),
-                       [&](int row) { return !std::ranges::binary_search(kept, row); });
-  const int unknowns = static_cast<int>(kept.size());
-  for (int k = 0; k < count; ++k) set(k, k < unknowns ? kept[k] : others[k - unknowns]);
-  elimination.Assign(columns);
-  elimination.Run(rows + 1, unknowns, count);
-  std::map<int, ExactProblem::Vector> weights;
-  for (std::size_t k = 0; k < others.size(); ++k) {
-    ExactProblem::Vector& own = weights[others[k]];
-    own.resize(unknowns);
-    elimination.BackSubstitute(unknowns + static_cast<int>(k));
-    for (int j = 0; j < unknowns; ++j) own[j] = elimination.Solution(j);
+std::map<int, ExactVector> WeightsOfDependent(const ExactMatrix& M, const std::vector<int>& listed) {
+  const auto [pivots, reduced] = ReducedRows(ExactMatrix(M(listed, Eigen::all).transpose()));
+  std::map<int, int> kept;  // where its pivot is, by row
+  for (std::size_t i = 0; i < pivots.size(); ++i) kept[listed[pivots[i]]] = static_cast<int>(i);
+  std::map<int, ExactVector> weights;
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    if (kept.contains(listed[k])) continue;
+    ExactVector& own = weights[listed[k]];
+    own.resize(std::ssize(kept));
+    int at = 0;
+    for (const auto& [row, pivot] : kept) own[at++] = reduced(pivot, static_cast<int>(k));
   }
   return weights;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "certify/exact/properties.h"
 #include "corpus/exact_problem.h"
 #include "solver/linear/direction.h"
 
@@ -38,9 +39,8 @@ class ExactDependentRows final : public DependentRows {
   std::map<std::pair<std::vector<bool>, int>, bool> known_;
 };
 
-// Of the rows of (A b) that are listed, the first that follow from none before are kept; of each other, by row,
+// Of the rows of M that are listed, the first that follow from none before are kept; of each other, by row,
 // how it follows: weights of those that are kept, in the order of rows.
-std::map<int, ExactProblem::Vector> WeightsOfDependent(const ExactProblem& problem,
-                                                       const std::vector<int>& listed);
+std::map<int, ExactVector> WeightsOfDependent(const ExactMatrix& M, const std::vector<int>& listed);
 
 }  // namespace stiction

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <flint/fmpq_mat.h>
+
 #include "certify/exact/linear_equations.h"
 #include "corpus/lifting.h"
 
@@ -74,6 +76,18 @@ class LiftedEquations {
 
 }  // namespace
 
+// Rows times their denominators are independent where they are.
+std::vector<int> IndependentRows(const Eigen::SparseMatrix<Rational, Eigen::RowMajor>& M) {
+  using Row = Eigen::SparseMatrix<Rational, Eigen::RowMajor>::InnerIterator;
+  IntegerRows transposed(M.cols(), IntegerVector(M.rows()));
+  for (int i = 0; i < M.rows(); ++i) {
+    mpz_class scale = 1;
+    for (Row of(M, i); of; ++of) Fractions<Rational>::Include(scale, of.value());
+    for (Row of(M, i); of; ++of) transposed[of.col()][i] = Fractions<Rational>::Numerator(of.value(), scale);
+  }
+  return IndependentColumns(transposed, LiftingPrime(0));
+}
+
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess) {
   const LiftedEquations equations(M, LiftingPrime(0));
@@ -94,6 +108,24 @@ std::variant<ExactVector, Obstacle> DecideRange(const ExactMatrix& A, const Exac
     ExactVector y = equations.Dependence(failed);
     if ((A.transpose() * y).isZero(0)) return Obstacle{y, y.dot(b)};
   }
+}
+
+std::pair<std::vector<int>, ExactMatrix> ReducedRows(const ExactMatrix& M) {
+  const int rows = static_cast<int>(M.rows()), columns = static_cast<int>(M.cols());
+  fmpq_mat_t reduced;
+  fmpq_mat_init(reduced, rows, columns);
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) fmpq_set_mpq(fmpq_mat_entry(reduced, i, j), M(i, j).get_mpq_t());
+  const int rank = static_cast<int>(fmpq_mat_rref(reduced, reduced));
+  std::pair<std::vector<int>, ExactMatrix> result({}, ExactMatrix(rank, columns));
+  for (int i = 0, pivot = 0; i < rank; ++i, ++pivot) {
+    while (fmpq_is_zero(fmpq_mat_entry(reduced, i, pivot)) != 0) ++pivot;
+    result.first.push_back(pivot);
+    for (int j = 0; j < columns; ++j)
+      fmpq_get_mpq(result.second(i, j).get_mpq_t(), fmpq_mat_entry(reduced, i, j));
+  }
+  fmpq_mat_clear(reduced);
+  return result;
 }
 
 }  // namespace stiction

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "certify/exact/properties.h"
 
@@ -19,5 +21,13 @@ std::optional<ExactVector> SolveEquations(const ExactMatrix& M, const ExactVecto
 // may say of equations that have a solution that they contradict each other, never the reverse.
 std::optional<ExactVector> SolveByLifting(const ExactMatrix& M, const ExactVector& right,
                                           const ExactVector& guess);
+
+// The first rows that are independent modulo a prime of 62 bits, and so are; where that prime divides a minor
+// there may be more.
+std::vector<int> IndependentRows(const Eigen::SparseMatrix<Rational, Eigen::RowMajor>& M);
+
+// The reduced row echelon form of M: its columns with pivots, each the first that is independent of those
+// before, and as many rows (FLINT).
+std::pair<std::vector<int>, ExactMatrix> ReducedRows(const ExactMatrix& M);
 
 }  // namespace stiction

@@ -25,6 +25,10 @@ std::span<const Method<double>> MethodsOverDoubles();
 // itself costs more there, even with certified signs, than the equations of its end.
 inline constexpr int kCellsFirst = 16;
 
+// Rows up to which `auto` computes over rationals; above, where A is in factors, certificates are made in
+// these.
+inline constexpr int MostExactRows(int dimension) { return dimension == 2 ? 60 : 24; }
+
 using ExactAnswer = Answer<Rational>;
 using InexactAnswer = Answer<double>;
 

@@ -52,12 +52,6 @@ std::optional<ExactVector> NewtonPoint(const ContactProblem<double>& rounded, co
   return refined.f.unaryExpr([](double x) { return Rational(x); });
 }
 
-// The cosine from which on an angle is at most that up to which forces are called solved.
-const Rational& EnoughBound() {
-  static const Rational enough = 1 - Rational(kSolvedResidual<double> * kSolvedResidual<double> / 4);
-  return enough;
-}
-
 // Friction turned against the slip that it leaves, again and again, until the bound is enough or falls no more.
 std::optional<ExactVector> Turned(const ExactProblem& problem, ExactVector f) {
   constexpr int kTurns = 8;
@@ -101,15 +95,18 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
   return answer.bound >= EnoughBound() || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
 }
 
-// Forces whose friction is further from the slip than a solution's may be are no solution: they are told, with
-// their bound.
+}  // namespace
+
+const Rational& EnoughBound() {
+  static const Rational enough = 1 - Rational(kSolvedResidual<double> * kSolvedResidual<double> / 4);
+  return enough;
+}
+
 void CallBounded(Answer<Rational>& answer) {
   if (!answer.Solved() || !answer.bound || *answer.bound >= EnoughBound()) return;
   answer.outcome = Outcome::kUndecided;
   answer.reason = "the angle between friction and slip is bounded, and not small enough to be called solved";
 }
-
-}  // namespace
 
 Answer<Rational> SolveInSpace(const ExactProblem& problem, const Request& request, SpaceEngine engine) {
   if (request.law == FrictionLaw::kBaraff) return SolveWeakly(problem, request, engine);

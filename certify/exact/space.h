@@ -26,6 +26,12 @@
 
 namespace stiction {
 
+// The cosine from which on an angle is at most that up to which forces are called solved.
+const Rational& EnoughBound();
+// Forces whose friction is further from the slip than a solution's may be are no solution: they are told, with
+// their bound.
+void CallBounded(Answer<Rational>& answer);
+
 // Requires dimension 3. The path is that of the last polygons.
 Answer<Rational> SolveInSpace(const ExactProblem& problem, const Request& request,
                               SpaceEngine engine = SpaceEngine::kComplete);

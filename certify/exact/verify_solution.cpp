@@ -150,12 +150,16 @@ std::optional<std::string> FindViolationApart(const ExactProblem& problem, const
 }
 
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f) {
+  return CoulombBound(problem, f, Accelerations(problem, f));
+}
+
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                     const ExactProblem::Vector& a) {
   constexpr int kPlaces = 200;
-  const ExactProblem::Vector a = Accelerations(problem, f);
   if (FindViolation(problem, f, a, FrictionLaw::kCoulomb, 0)) return std::nullopt;
   Rational least = 1;  // of the squared cosines
   ForEachContact(problem, [&](int i, int row, int) {
-    if (problem.contacts[i].kind != ContactKind::kStatic) return;
+    if (problem.contacts[i].kind != ContactKind::kStatic || problem.dimension == 2) return;
     const Friction friction = FrictionOf(problem, i, row, f, a);
     const Rational full = friction.limit * friction.a;
     if (full != 0) least = std::min<Rational>(least, friction.power * friction.power / full);

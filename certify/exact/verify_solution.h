@@ -42,7 +42,10 @@ std::optional<std::string> FindViolationApart(const ExactProblem& problem, const
                                               const ExactProblem::Vector& a);
 
 // The largest bound c of Coulomb's law that f meets, in space, rounded down: 1 - c to eight binary digits.
-// Empty if f breaks a condition whatever c.
+// Empty if f breaks a condition whatever c. In the plane 1, or empty.
 std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f);
+// The same with a = A f + b at hand, of which A and b are not read.
+std::optional<Rational> CoulombBound(const ExactProblem& problem, const ExactProblem::Vector& f,
+                                     const ExactProblem::Vector& a);
 
 }  // namespace stiction

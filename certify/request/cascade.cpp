@@ -31,6 +31,9 @@ Request By(const Request& request, std::string_view method, Arithmetic arithmeti
 
 bool Always(const Posed&, const Best&) { return true; }
 bool HasFactors(const Posed& posed, const Best&) { return posed.factors() != nullptr; }
+bool HasManyInFactors(const Posed& posed, const Best&) {
+  return posed.factors() != nullptr && posed.rows() > MostExactRows(posed.dimension());
+}
 bool StaysSparse(const Posed& posed, const Best&) { return posed.StaysSparse(); }
 bool HasFewRows(const Posed& posed, const Best&) { return posed.rows() < kCellsFirst; }
 bool HasManyRows(const Posed& posed, const Best&) { return posed.rows() >= kCellsFirst; }
@@ -57,6 +60,24 @@ Best RunBodies(Posed& posed, const Request& request, const Best&) {
   InexactAnswer answer = SolveByBodies(*posed.factors(), request);
   if (!answer.Solved() && !request.limits.Stopped() && !posed.StaysSparse()) return std::nullopt;
   return Solution{.answer = std::move(answer)};
+}
+
+Best RunBodiesExactly(Posed& posed, const Request& request, const Best&) {
+  if (posed.dimension() == 3 && request.law == FrictionLaw::kBaraff) return std::nullopt;
+  ExactAnswer answer = SolveByBodiesExactly(*posed.factors(), request);
+  return answer.Solved() ? Best(Solution{.answer = std::move(answer)}) : std::nullopt;
+}
+
+// Rounded: what methods over doubles miss by a little.
+Best RunRoundedModes(Posed& posed, const Request& request, const Best&) {
+  const ExactAnswer exact = SolveByBodiesExactly(*posed.factors(), request);
+  InexactAnswer answer;
+  answer.method = exact.method;
+  answer.law = exact.law;
+  answer.outcome = Outcome::kSolved;  // if it passes
+  answer.f = exact.f.unaryExpr(&ToDouble);
+  answer = Judged(*posed.factors(), request, std::move(answer));
+  return answer.Solved() ? Best(Solution{.answer = std::move(answer)}) : std::nullopt;
 }
 
 Best RunEntries(Posed& posed, const Request& request, const Best&) {
@@ -127,8 +148,10 @@ struct Turn {
 };
 
 constexpr Turn kCascade[] = {
+    {kDouble, 3, &HasFactors, kInteriorPoint, kDouble, &RunBodies},
     {kDouble, 0, &HasFactors, kNewtonBodies, kDouble, &RunBodies},
-    {kDouble, 0, &HasFactors, kInteriorPoint, kDouble, &RunBodies},
+    {kDouble, 2, &HasFactors, kInteriorPoint, kDouble, &RunBodies},
+    {kDouble, 0, &HasManyInFactors, kInteriorPoint, kDouble, &RunRoundedModes},
     {kDouble, 0, &StaysSparse, "entries", kDouble, &RunEntries, true},  // no method: the one that takes entries
     {kDouble, 3, &Always, "fast", kDouble, &RunWithoutPolygons},
     {kDouble, 2, &Always, kAutomatic, kDouble},
@@ -141,6 +164,7 @@ constexpr Turn kCascade[] = {
     {kFiltered, 2, &Always, kAutomatic, kExact, &RunExactly},
     {kFloat, 0, &Always, kAutomatic, kFloat},
     {kQuad, 0, &Always, kAutomatic, kQuad},
+    {kExact, 0, &HasManyInFactors, kInteriorPoint, kExact, &RunBodiesExactly},
     {kExact, 0, &Always, kAutomatic, kExact},
 };
 
@@ -170,6 +194,8 @@ void PreferRestIn(Posed& posed, const Request& request, Solution& solution) {
     return PreferRest(posed.file(), rounded, request, *exact);
   }
   auto& answer = std::get<InexactAnswer>(solution.answer);
+  const bool in_factors = request.arithmetic == kDouble && posed.factors() != nullptr;
+  if (in_factors && !MayRest(InDoubles(*posed.factors()), answer)) return;
   const auto file = [&posed]() -> const AnyProblem& { return posed.file(); };
   if (request.arithmetic != kFloat) return PreferRest(posed.doubles(), file, request, answer);
   const auto ran = Converted<double>(posed.RoundedTo<float>(), [](float x) { return double{x}; });

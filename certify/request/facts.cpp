@@ -236,9 +236,11 @@ Json DenseRuns(const ExactProblem& problem, const Limits& limits, bool suspicion
 
 Json RunsOf(const AnyProblem& problem, const Limits& limits, int dense_rows, bool suspicions) {
   Json runs = Json::array();
-  if (problem.dimension() == 2 ? problem.contacts().size() > kExactContacts : problem.rows() > dense_rows)
-    runs.push_back(RunSparse(problem, limits));
-  if (problem.rows() <= dense_rows) {
+  const bool planar = problem.dimension() == 2, in_factors = problem.factors() != nullptr;
+  const bool is_large = std::ssize(problem.contacts()) > (planar ? kExactContacts : kExactContactsInSpace);
+  if (planar || in_factors ? is_large : problem.rows() > dense_rows) runs.push_back(RunSparse(problem, limits));
+  const bool is_done = in_factors && is_large && Solves(runs.back());
+  if (problem.rows() <= dense_rows && !is_done) {
     const Json dense = DenseRuns(problem, limits, suspicions);
     runs.insert(runs.end(), dense.begin(), dense.end());
   }

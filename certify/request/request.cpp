@@ -15,8 +15,6 @@
 namespace stiction {
 namespace {
 
-constexpr int kExactRows = 60, kExactRowsInSpace = 24;  // from which on `auto` solves over doubles
-
 bool IsFloating(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::kFloat || arithmetic == Arithmetic::kDouble ||
          arithmetic == Arithmetic::kQuad;
@@ -163,7 +161,7 @@ std::string Refusal(std::string_view method, int dimension, Arithmetic arithmeti
 
 ArithmeticChoice UsualArithmetic(std::string_view method, const AnyProblem& problem) {
   using enum Arithmetic;
-  const int most = problem.dimension() == 2 ? kExactRows : kExactRowsInSpace;
+  const int most = MostExactRows(problem.dimension());
   if (method == kAutomatic && StaysSparse(problem)) {
     if (problem.factors() != nullptr)
       return {kDouble, Counted(problem.rows(), "row") + " in factors: over doubles, A is not formed"};

@@ -27,10 +27,11 @@ bool MayPreferRest(const Answer<Scalar>& answer, const Request& request) {
 }
 
 // Squares of accelerations, of contacts as if A_ii were 1: no units of theirs change it.
-Rational Motion(const ExactProblem& problem, const ExactVector& a) {
+Rational Motion(const AnyProblem& problem, const ExactVector& a) {
+  const ExactVector diagonal = problem.entries().A.diagonal();
   Rational sum = 0;
   for (int i = 0; i < a.size(); ++i)
-    if (problem.A(i, i) > 0) sum += a[i] * a[i] / problem.A(i, i);
+    if (diagonal[i] > 0) sum += a[i] * a[i] / diagonal[i];
   return sum;
 }
 
@@ -38,14 +39,18 @@ Rational Motion(const ExactProblem& problem, const ExactVector& a) {
 // less: its steps are those of the least change.
 void PreferLessMotion(const AnyProblem& problem, const Request& request, ExactAnswer& answer) {
   if (problem.dimension() != 3 || answer.law != FrictionLaw::kCoulomb || answer.a.isZero(0)) return;
-  Eigen::VectorXd f;
-  try {
-    f = problem.factors() != nullptr ? SolveByBodies(*problem.factors(), request).f
-                                     : SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f;
-  } catch (const InputError&) {  // doubles do not hold the problem
-    return;
+  ExactAnswer other;
+  if (problem.factors() != nullptr) {
+    Request by_newton = request;
+    by_newton.method = kNewtonBodies;
+    other = SolveByBodiesExactly(*problem.factors(), by_newton);
+  } else {
+    try {
+      other = SolveNear(problem, request, SolveBy(NewtonBodiesRow(), Rounded<double>(problem), request).f);
+    } catch (const InputError&) {  // doubles do not hold the problem
+      return;
+    }
   }
-  ExactAnswer other = SolveNear(problem, request, f);
   if (!other.Solved()) return;
   const Rational mine = Motion(problem, answer.a), least = Motion(problem, other.a);
   constexpr double kAlike = 1e-6;  // what bounded directions of slip leave
@@ -153,14 +158,34 @@ bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) 
   return true;
 }
 
+// Whether a group of contacts moves that is small enough to look for forces at rest.
+template <class Factors>
+bool MoveInSmallGroups(const Factors& problem, const ExactVector& moving) {
+  if (moving.isZero(0)) return false;
+  Groups groups;
+  groups.Find(problem);
+  std::vector<int> rows(problem.contacts.size(), 0);
+  std::vector<char> moves(rows.size(), false);
+  for (int k = 0; k < moving.size(); ++k) {
+    ++rows[groups.OfRow(k)];
+    moves[groups.OfRow(k)] |= moving[k] != 0;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (moves[i] && rows[i] <= kQuickRows) return true;
+  return false;
+}
+
 }  // namespace
 
 void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded, const Request& request,
                 ExactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
-  const ExactVector a = Accelerations(problem, answer.f);
+  const auto* factors = problem.factors();
+  const ExactVector a =
+      factors != nullptr ? factors->Accelerations(answer.f) : Accelerations(problem, answer.f);
   if (a.isZero(0) || (rounded != nullptr && CannotRest(*rounded, a))) return;
-  auto rest = ForcesAtRest(problem, answer.f, a);
+  const bool is_small = factors == nullptr || MoveInSmallGroups(*factors, a);
+  auto rest = is_small ? ForcesAtRest(problem, answer.f, a) : std::nullopt;
   if (!rest) return PreferLessMotion(problem, request, answer);
   answer.f = std::move(rest->f);
   answer.a = Accelerations(problem, answer.f);
@@ -172,7 +197,8 @@ void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded
 namespace {
 
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
-ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& answer) {
+template <class Problem>
+ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
   LenientUnits<double> units;
   units.Take(problem, answer.f);
@@ -187,6 +213,10 @@ ExactVector Moving(const ContactProblem<double>& problem, const InexactAnswer& a
 }
 
 }  // namespace
+
+bool MayRest(const FactoredProblem<double>& problem, const InexactAnswer& answer) {
+  return answer.Solved() && MoveInSmallGroups(problem, Moving(problem, answer));
+}
 
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
                 const Request& request, InexactAnswer& answer) {

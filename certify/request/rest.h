@@ -14,6 +14,10 @@ namespace stiction {
 void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded, const Request& request,
                 ExactAnswer& answer);
 
+// Whether forces of doubles leave accelerations, no rounding, of contacts so few that PreferRest does
+// something.
+bool MayRest(const FactoredProblem<double>& problem, const InexactAnswer& answer);
+
 // The same of doubles: forces that rest are found exactly, and rounded. `rounded`: the problem that was solved;
 // file(): that of which it is a rounding.
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,

@@ -14,7 +14,6 @@
 #include "certify/claims/robust.h"
 #include "certify/claims/safe.h"
 #include "certify/exact/answer_json.h"
-#include "certify/exact/bodies.h"
 #include "certify/request/facts.h"
 #include "certify/request/request.h"
 #include "cli/narration/outcome_text.h"
@@ -83,17 +82,16 @@ Json PoliciesOn(const ExactProblem& problem, const ExplainOptions& o) try {
   return nullptr;
 }
 
-// How `solve` ends on it by the method of this name, with the factors of the file as `solve` has them.
+// How `solve` ends on it by the method of this name.
 Json EndOf(std::string_view method, const ProblemFile& file, const ExplainOptions& o) {
   const Wanted wanted{.method = std::string(method), .request = {.limits = o.limits}};
-  const AnyProblem problem = IsOfBodies(method) ? InFactors(file) : file.problem;
-  const Request request = RequestOf(wanted, problem, o.file);
+  const Request request = RequestOf(wanted, file.problem, o.file);
   Json run = {{"method", method}, {"arithmetic", Name(request.arithmetic)}};
   const auto add = [&run](const auto& answer) {
     run.update(EndToJson(answer));
     if (answer.moves_elsewhere) run["unique_accelerations"] = false;
   };
-  std::visit(add, SolveAsked(problem, request, o.file).answer);
+  std::visit(add, SolveAsked(file.problem, request, o.file).answer);
   return run;
 }
 
@@ -225,7 +223,8 @@ Json NextOf(const Json& found, const std::string& file) {
 
 }  // namespace
 
-SharedJson Explained(const ProblemFile& file, const ExplainOptions& o) {
+SharedJson Explained(ProblemFile file, const ExplainOptions& o) {
+  file.problem = InFactors(file);
   Json found = {{"file", o.file}};
   AddContacts(file.problem, found);
   found["survey"] = Surveyed(file.problem, o.limits);

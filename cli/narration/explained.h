@@ -18,7 +18,7 @@ struct ExplainOptions {
 };
 
 // What `explain --json` prints.
-SharedJson Explained(const ProblemFile& file, const ExplainOptions& o);
+SharedJson Explained(ProblemFile file, const ExplainOptions& o);
 
 // The same in lines that fit the terminal, but for commands.
 std::string ExplainedText(const Json& found);

@@ -82,11 +82,7 @@ ProblemFile ProblemOf(const SceneFileIn<Kind>& scene, const std::string& source)
                     source, model.islands.size(), source));
   ProblemFile file;
   file.name = scene.scene.name;
-  if (model.islands[0].rows > kMostDenseRows) {
-    file.problem = model.InFactors(0);
-    return file;
-  }
-  file.problem = model.Problem(0);
+  file.problem = model.InFactors(0);
   file.scene = ToJson(scene);
   return file;
 }

@@ -21,8 +21,8 @@
 
 namespace stiction {
 
-// In the form that it is read in; of a scene in factors where it stays sparse, otherwise dense, and `scene` is
-// that scene. More than `most_rows` are refused, by default those of which no dense A is made.
+// In the form that it is read in; of a scene in factors, and `scene` is that scene. More than `most_rows` are
+// refused, by default those of which no dense A is made.
 ProblemFile ReadProblem(const std::filesystem::path& file, int most_rows = kMostDenseRows);
 
 // Whether the file is a store, or at least a database.

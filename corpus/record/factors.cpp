@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <climits>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "corpus/exact_number.h"
 #include "corpus/json.h"
 #include "corpus/record/definite_block.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 namespace {
@@ -344,6 +346,23 @@ FactoredProblem<double> InDoubles(const ExactFactors& factors) {
   rounded.c = factors.c.unaryExpr(&ToDouble);
   rounded.b = factors.b.unaryExpr(&ToDouble);
   return rounded;
+}
+
+// Of n roundings each sum is off by at most 2n roundings of the same sum of abs(inv(M) J')_kj abs(J)_ik
+// abs(f_j).
+void AddSizes(const ExactFactors& factors, const ExactProblem::Vector& f, std::vector<Rational>& size) {
+  constexpr double kTiny = 1e-250, kHuge = 1e250;
+  using Rows = FactoredMatrix<double>::Rows;
+  const Rows J = factors.A.J().unaryExpr(&ToDouble), JW = factors.A.JW().unaryExpr(&ToDouble);
+  const Eigen::VectorXd forces = f.unaryExpr([](const Rational& x) { return std::abs(ToDouble(x)); });
+  const Eigen::VectorXd all = JW.cwiseAbs() * Eigen::VectorXd(J.cwiseAbs().transpose() * forces);
+  bool fits = std::ranges::all_of(all, [](double x) { return x == 0 || (x > kTiny && x < kHuge); });
+  for (int j = 0; j < f.size(); ++j) fits = fits && (f[j] == 0 || forces[j] > kTiny);
+  if (!fits) return AddSizes<ExactFactors, ExactProblem::Vector, Rational>(factors, f, size);
+  const double share = std::ldexp(static_cast<double>(J.rows() + J.cols() + 8), -51);
+  const Rows A = JW * J.transpose();
+  const Eigen::VectorXd sums = A.cwiseAbs() * forces - share * all;
+  for (int i = 0; i < sums.size(); ++i) size[i] += Rational(std::max(sums[i], 0.0));
 }
 
 }  // namespace stiction

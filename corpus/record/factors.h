@@ -52,4 +52,8 @@ bool IsInRangeByFactors(const ExactFactors& factors);
 // Each number the nearest double, those of inv(M) and b too.
 FactoredProblem<double> InDoubles(const ExactFactors& factors);
 
+// For ErrorMeter (solver/problem/errors.h): sums of abs(A_ij f_j) over doubles, rounded down, so that errors
+// are told the larger for it; exact where doubles do not hold them.
+void AddSizes(const ExactFactors& factors, const ExactProblem::Vector& f, std::vector<Rational>& size);
+
 }  // namespace stiction

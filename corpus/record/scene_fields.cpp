@@ -128,8 +128,10 @@ std::pair<BodyShape<Rational>, std::string> Cornered(Corners corners) {
   return {std::move(shape), std::move(fault)};
 }
 std::pair<ShapeInSpace<Rational>, std::string> Cornered(CornersInSpace corners) {
-  Polyhedron polyhedron = MakePolyhedron(std::move(corners));
-  return {std::move(polyhedron.shape), std::move(polyhedron.fault)};
+  thread_local CornersInSpace last;  // walls are of one brick
+  thread_local Polyhedron polyhedron;
+  if (last != corners) polyhedron = MakePolyhedron(last = std::move(corners));
+  return {polyhedron.shape, polyhedron.fault};
 }
 
 Corners BoxCorners(const Vector2<Rational>& center, const Vector2<Rational>& size) {

@@ -52,6 +52,7 @@ RunEnd<> InteriorPoint::Run(const Problem& problem) {
   if (!best_.IsGood()) best_.Forget();  // its error is no measure of others
   const double residual = ResidualOf<double>(request_);
   const int most = MostAttempts();
+  f_.setZero(problem.rows());  // for who says stop before there are others
   for (int i = 0; i < most && !request_.limits.Stopped(); ++i) {
     if (best_.error() <= (i < kPatience ? residual : std::max(residual, loose))) break;
     ++verdict_.statistics[Counter::kStarts];

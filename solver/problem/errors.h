@@ -323,6 +323,22 @@ template <class Problem, class Vector, class Measure, class Friction>
   return mode;
 }
 
+// Adds sum_j abs(A_ij f_j) to the size of row i.
+template <class Problem, class Vector, class Scalar>
+void AddSizes(const Problem& problem, const Vector& f, std::vector<Scalar>& size) {
+  const auto add = [&](int i, int j, const auto& x) {
+    if (f[j] != 0) size[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
+  };
+  if constexpr (requires { problem.A.ForEachOfHalf(add); }) {
+    problem.A.ForEachOfHalf([&](int i, int j, const auto& x) {
+      add(i, j, x);
+      if (i != j) add(j, i, x);
+    });
+  } else {
+    ForEachEntry(problem.A, add);
+  }
+}
+
 // Measures forces. Memory is kept between calls.
 template <class Scalar>
 class ErrorMeter {
@@ -402,17 +418,7 @@ class ErrorMeter {
  private:
   template <class Problem, class Vector>
   void TakeSizes(const Problem& problem, const Vector& f) {
-    const auto add = [&](int i, int j, const auto& x) {
-      if (f[j] != 0) size_[i] += Scalar(Abs(Scalar(x))) * Scalar(Abs(Scalar(f[j])));
-    };
-    if constexpr (requires { problem.A.ForEachOfHalf(add); }) {
-      problem.A.ForEachOfHalf([&](int i, int j, const auto& x) {
-        add(i, j, x);
-        if (i != j) add(j, i, x);
-      });
-    } else {
-      ForEachEntry(problem.A, add);
-    }
+    AddSizes(problem, f, size_);
     ForEachContact(problem, [&](int, int row, int count) {
       const Scalar free = TangentLength(problem.b, row, count);
       unit_[row] = Abs(Scalar(problem.b[row])) + theta_ * size_[row];

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "certify/exact/linear_equations.h"
+#include "certify/exact/properties.h"
 
 namespace stiction {
 namespace {
@@ -52,6 +53,25 @@ TEST_CASE("lifted equations: those that contradict each other have no solution")
     right[size - 1] += Rational(1, 1000000007);
     CHECK(!SolveByLifting(M, right, none));
     CHECK(!SolveEquations(M, right, none));
+  }
+}
+
+TEST_CASE("lifted equations: independent rows are the first, and reduced rows make all of M of its columns") {
+  std::mt19937_64 random(23);
+  for (const int rank : {0, 1, 7, 12}) {
+    ExactMatrix M = DrawnMatrix(random, 15, rank) * DrawnMatrix(random, rank, 12);
+    M.row(3) = M.row(1) * Rational(-2, 3);
+    INFO("rank " << rank);
+    std::vector<int> first;
+    for (int i = 0; i < M.rows(); ++i) {
+      const ExactMatrix top = M.topRows(i + 1);
+      if (RankOf(top * top.transpose()) > std::ssize(first)) first.push_back(i);
+    }
+    CHECK(IndependentRows(M.sparseView()) == first);
+    const auto [pivots, reduced] = ReducedRows(M.transpose());
+    CHECK(pivots == first);
+    CHECK(M.transpose() == M.transpose()(Eigen::all, pivots) * reduced);
+    CHECK(reduced(Eigen::all, pivots).isIdentity(0));
   }
 }
 

@@ -3,6 +3,8 @@
 without A."""
 
 import json
+import subprocess
+import sys
 from fractions import Fraction
 
 import cli
@@ -60,6 +62,14 @@ def wall(columns, rows, mu="1/2"):
     return {"factors": {"J": {"size": [row, 3 * count], "entries": [e for e in entries if e[2] != "0"]},
                         "M": ["1"] * (3 * count), "w": ["0", "-10", "0"] * count},
             "mu": [mu] * (row // 2), "dimension": 2}
+
+
+def space_wall(layers, **changes):
+    """The lowest layers of a wall in space: of two nine bricks and 156 rows, of three 14 and 252."""
+    scene = json.loads((SCENES / "large/brick-wall-in-space.json").read_text())
+    kept = ("floor", *(f"brick-{layer + 1}-" for layer in range(layers)))
+    low = [body for body in scene["bodies"] if body["name"].startswith(kept)]
+    return {**scene, "bodies": low, **changes}
 
 
 class Case(cli.TestCase):
@@ -124,11 +134,12 @@ class Assembled(Case):
                 self.succeeds("check", certificate, "--problem", factored)
 
     def test_walls_are_solved_by_bodies_and_the_gate_agrees(self):
-        for scene in ("large/brick-wall.json", "large/brick-wall-in-space.json"):
+        for scene, method in (("large/brick-wall.json", "newton-bodies"),
+                              ("large/brick-wall-in-space.json", "interior-point")):
             with self.subTest(scene=scene):
                 factored, dense = self.assembled(scene, "--factors"), self.assembled(scene)
                 answer = self.succeeds("solve", factored, "--json").json()
-                self.assertEqual((answer["outcome"], answer["method"]), ("solved", "newton-bodies"))
+                self.assertEqual((answer["outcome"], answer["method"]), ("solved", method))
                 self.assertLessEqual(answer["residual"], 1e-8)
                 self.assertEqual(answer["assumptions"], [])
                 # Rounded, A is not semidefinite, and a hundred contacts touch without a force.
@@ -208,6 +219,39 @@ class Certified(Case):
                 written = json.loads(certificate.read_text())
                 self.assertEqual((written["claim"], list(written["witness"])), (claim, ["factors"]))
                 self.succeeds("check", certificate, "--problem", factored)
+
+    def test_forces_of_walls_in_space_are_proved_at_rest_and_where_they_slide(self):
+        """In the modes that doubles end in; both checkers take them; of the scene as of its factors."""
+        rests, slides = space_wall(2), space_wall(3, gravity=[6, 2, -10])
+        for scene, claim, word, bound in ((rests, "existence", "coulomb-solution", 1), (rests, "rests", "rests", None),
+                                          (slides, "existence", "coulomb-solution", Fraction(1 - 1e-12))):
+            file, factors = self.file("scene.json", scene), self.folder / "factors.json"
+            self.succeeds("assemble", file, "--factors", "-o", factors)
+            texts = []
+            for source in (file, factors):
+                out = self.folder / "certificate.json"
+                self.succeeds("certify", source, "-o", out, "--claim", claim)
+                texts.append(out.read_text())
+                self.succeeds("check", out, "--problem", file)
+                checker = [sys.executable, cli.ROOT / "certify/check_certificate.py", out]
+                self.assertEqual(subprocess.run(checker, capture_output=True).returncode, 0)
+            self.assertEqual(texts[0], texts[1])
+            written = json.loads(texts[0])
+            self.assertEqual(written["claim"], word)
+            if bound:
+                self.assertGreaterEqual(Fraction(written["witness"]["bound"]), bound)
+            for number in written["witness"]["f"] if scene is rests else ():
+                self.assertLess(len(number), 60)
+
+    def test_a_scene_is_solved_as_its_factors_are(self):
+        for scene, options in ((space_wall(2), []), (space_wall(2), ["--arithmetic", "exact"]),
+                               (space_wall(3, gravity=[6, 2, -10]), [])):
+            with self.subTest(gravity=scene["gravity"], options=options):
+                file, factors = self.file("scene.json", scene), self.folder / "factors.json"
+                self.succeeds("assemble", file, "--factors", "-o", factors)
+                answers = [self.succeeds("solve", source, "--json", *options).json() for source in (file, factors)]
+                self.assertEqual(answers[0], answers[1])
+                self.assertEqual((answers[0]["outcome"], answers[0]["method"]), ("solved", "interior-point"))
 
     def test_velocities_that_no_row_touches_are_left_out(self):
         J = [[*row[:2], 0, *row[2:], 0] for row in FACTORS["J"]]

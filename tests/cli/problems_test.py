@@ -205,7 +205,7 @@ class Problems(cli.TestCase):
         """(certify/request/cascade.cpp), where an arithmetic has several."""
         double, filtered, corpus = "double", "filtered", cli.ROOT / "corpus"
         for row, file, asked, method, arithmetic, suspected in [
-            ("factors", PROBLEMS / "grip-mu-0.03.json", double, "newton-bodies", "double", None),
+            ("factors", PROBLEMS / "grip-mu-0.03.json", double, "interior-point", "double", None),
             ("space", corpus / "space" / "cycle-under-both-slips.json", double, "fast", "double", None),
             ("plane", corpus / "cycle-every-policy-mu-1.json", double, "fast", "double", None),
             ("singular", self.file("held.json", '{"contacts": [{"kind": "bilateral"}, {"kind": "static", "mu": 1}], '

@@ -24,6 +24,7 @@
 #include "corpus/record/definite_block.h"
 #include "corpus/stop.h"
 #include "solver/problem/check.h"
+#include "solver/problem/errors.h"
 
 namespace stiction {
 namespace {
@@ -432,6 +433,26 @@ TEST_CASE("problem file: A of a large block of masses is J inv(M) J', exactly, a
     const FactoredProblem<double> rounded = InDoubles(*file.problem.factors());
     const Eigen::VectorXd moved = rounded.Responses(f.unaryExpr(&ToDouble));
     CHECK((moved - file.problem.factors()->Responses(f).unaryExpr(&ToDouble)).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("problem file: sizes of forces in factors are told from below, where doubles hold them") {
+  const ProblemFile file = ParseProblem(WithLargeBlock(kMostWholeInverse + 1, "2"), "p.json");
+  const ExactFactors& factors = *file.problem.factors();
+  for (const char* scale : {"1", "1e-200", "1e-260", "1e-400", "1e400"}) {
+    INFO(scale);
+    const ExactProblem::Vector f =
+        ExactProblem::Vector((ExactProblem::Vector(2) << Rational(3), Rational(-1, 7)).finished()) *
+        *ParseRational(scale);
+    std::vector<Rational> below(2, Rational(1)), exact = below;
+    AddSizes(factors, f, below);
+    AddSizes<ExactFactors, ExactProblem::Vector, Rational>(factors, f, exact);
+    const bool held = ToDouble(abs(f[0])) > 1e-250 && ToDouble(abs(f[0])) < 1e250;
+    for (int i = 0; i < 2; ++i) {
+      const Rational size = exact[i] - 1, told = below[i] - 1;
+      CHECK((held ? told < size : told == size));
+      CHECK(told > size * Rational(1 - 1e-12));
+    }
   }
 }
 

@@ -113,6 +113,11 @@ TEST_CASE("interior point: without a solution it is undecided, and says why, as 
   CHECK(stopped.outcome == Outcome::kUndecided);
   CHECK(stopped.reason == kStopped);
   CHECK(stopped.statistics[Counter::kFactorizations] == 0);
+  InteriorPoint other;  // that has no forces of an earlier run
+  other.request().limits.stop = &stop;
+  other.Run(problem);
+  CHECK(other.f().isZero(0));
+  CHECK(other.f().size() == 1);
 }
 
 TEST_CASE("interior point: a block on a slope in space rests inside its cone, and slides outside it") {
