@@ -19,8 +19,9 @@ using Entries = std::vector<Eigen::Triplet<Rational>>;
 
 constexpr double kMotion = 1e-6;    // in units of its own an acceleration that is none
 constexpr double kPressure = 1e-9;  // likewise a force, and what is left to the limit of friction
-constexpr double kNear = 1e-12;     // the residual of doubles that are asked for: directions of slow slips
-constexpr int kPlaces = 40;         // binary, of the largest force, in forces that the equations leave free
+constexpr double kAskedResidual =
+    1e-12;                   // the residual of doubles that are asked for: directions of slow slips
+constexpr int kPlaces = 40;  // binary, of the largest force, in forces that the equations leave free
 
 // The direction of friction of a contact at its limit, against the acceleration or, where that is slow, along
 // the force; zero where it sticks. Directions that differ by rounding are one, the first that is told: contacts
@@ -128,7 +129,7 @@ std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem,
 ExactAnswer SolveByBodiesExactly(const ExactFactors& problem, const Request& request) {
   constexpr int kTurns = 2;
   Request asked = request;
-  asked.residual = kNear;
+  asked.residual = kAskedResidual;
   if (asked.method != kNewtonBodies)
     asked.method = kInteriorPoint;  // whose forces are in the middle of their cones
   const InexactAnswer near = SolveByBodies(problem, asked);
