@@ -356,12 +356,13 @@ void AddSizes(const ExactFactors& factors, const ExactProblem::Vector& f, std::v
   const Rows J = factors.A.J().unaryExpr(&ToDouble), JW = factors.A.JW().unaryExpr(&ToDouble);
   const Eigen::VectorXd forces = f.unaryExpr([](const Rational& x) { return std::abs(ToDouble(x)); });
   const Eigen::VectorXd all = JW.cwiseAbs() * Eigen::VectorXd(J.cwiseAbs().transpose() * forces);
-  bool fits = std::ranges::all_of(all, [](double x) { return x == 0 || (x > kTiny && x < kHuge); });
-  for (int j = 0; j < f.size(); ++j) fits = fits && (f[j] == 0 || forces[j] > kTiny);
-  if (!fits) return AddSizes<ExactFactors, ExactProblem::Vector, Rational>(factors, f, size);
   const double share = std::ldexp(static_cast<double>(J.rows() + J.cols() + 8), -51);
   const Rows A = JW * J.transpose();
   const Eigen::VectorXd sums = A.cwiseAbs() * forces - share * all;
+  bool fits =
+      sums.allFinite() && std::ranges::all_of(all, [](double x) { return x == 0 || (x > kTiny && x < kHuge); });
+  for (int j = 0; j < f.size(); ++j) fits = fits && (f[j] == 0 || forces[j] > kTiny);
+  if (!fits) return AddSizes<ExactFactors, ExactProblem::Vector, Rational>(factors, f, size);
   for (int i = 0; i < sums.size(); ++i) size[i] += Rational(std::max(sums[i], 0.0));
 }
 
