@@ -20,8 +20,8 @@ using Entries = std::vector<Eigen::Triplet<Rational>>;
 constexpr double kMotion = 1e-6;    // in units of its own an acceleration that is none
 constexpr double kPressure = 1e-9;  // likewise a force, and what is left to the limit of friction
 constexpr double kAskedResidual =
-    1e-12;                   // the residual of doubles that are asked for: directions of slow slips
-constexpr int kPlaces = 40;  // binary, of the largest force, in forces that the equations leave free
+    1e-12;                         // the residual of doubles that are asked for: directions of slow slips
+constexpr int kBinaryPlaces = 40;  // binary, of the largest force, in forces that the equations leave free
 
 // The direction of friction of a contact at its limit, against the acceleration or, where that is slow, along
 // the force; zero where it sticks. Directions that differ by rounding are one, the first that is told: contacts
@@ -101,7 +101,7 @@ std::optional<ExactVector> SolveLinearModes(const ExactFactors& problem,
   J.setFromTriplets(entries.begin(), entries.end());
   const std::vector<int> kept = IndependentRows(J);
   const double largest = near.size() > 0 ? near.cwiseAbs().maxCoeff() : 0;
-  const int places = largest > 0 ? kPlaces - std::ilogb(largest) : kPlaces;
+  const int places = largest > 0 ? kBinaryPlaces - std::ilogb(largest) : kBinaryPlaces;
   ExactVector x(count);
   for (int k = 0; k < count; ++k) x[k] = NearMultiple(near[still[k]], std::max(places, 0));
   for (const int k : kept) x[k] = 0;

@@ -154,6 +154,16 @@ void InteriorPoint::Offer() {
   end_ = snapped;
 }
 
+// Whether forces are so large that their rounding hides what acts: there is mostly no solution.
+bool InteriorPoint::Diverges() const {
+  constexpr double kMost = 1e8;
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    const double force = f_[matrix_.pieces()[c].row] * std::sqrt(matrix_.own(static_cast<int>(c)));
+    if (std::abs(force) > kMost * most_b_) return true;
+  }
+  return false;
+}
+
 // The path of the attempt, from where it is to its end.
 void InteriorPoint::Follow() {
   constexpr double kFalls = 0.3, kShort = 0.02;
@@ -163,7 +173,7 @@ void InteriorPoint::Follow() {
   for (int step = 0; step < patience * kSteps && !request_.limits.Stopped(); ++step) {
     const double tau = MeanProduct();
     ++verdict_.statistics[Counter::kIterations];
-    if (!std::isfinite(tau)) return;
+    if (!std::isfinite(tau) || Diverges()) return;
     if (tau < kFalls * mark) {
       mark = tau;
       since = step;
@@ -440,6 +450,7 @@ void InteriorPoint::FollowCurve() {
     } else if (corrections > 5 || cosine < 0.3) {
       length /= 1.5;
     }
+    if (Diverges()) return;
     if (!(tau < kJudgeBelow)) continue;
     Offer();
     if (best_.error() <= aim) return;

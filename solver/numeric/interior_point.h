@@ -111,6 +111,7 @@ class InteriorPoint {
   template <class Visit>
   void ForEachPair(Visit visit);
   double MeanProduct();
+  bool Diverges() const;
   void Offer();
   void TakeResiduals();
   void Aim(double sigma, double tau, bool corrects);
