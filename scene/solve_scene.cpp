@@ -63,14 +63,16 @@ constexpr double kMostMissed = 1.0 / 16;
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
 
-// Of what is undecided: the error of its forces; no forces, if those that were found are worse.
+// Of what is undecided: the error of its forces, those that grow without end in part; no forces, if they are
+// worse.
 template <class Problem>
 void KeepBest(const Problem& problem, SceneAnswer& answer) {
   if (answer.Solved()) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.rows());
   answer.error = ErrorOf(problem, none);
-  const bool are_forces =
-      answer.f.size() == problem.rows() && answer.f.allFinite() && Pressing(problem, answer.f) <= kMostPressing;
+  const bool are_forces = answer.f.size() == problem.rows() && answer.f.allFinite();
+  const double pressing = are_forces ? Pressing(problem, answer.f) : 0;
+  if (pressing > kMostPressing) answer.f *= kMostPressing / pressing;
   const double error = are_forces ? ErrorOf(problem, answer.f) : answer.error;
   if (are_forces && error <= answer.error) {
     answer.error = error;
