@@ -49,7 +49,8 @@ FEATURES = {  # that came later: their commits, and the most lines that they may
                 "e700cec5 0709d1c3", 800),
     "rest without rationals": ("4845d61a", 60),
     "names in pages, checked": ("c67bc00d", 20),
-    "paths that turn back": ("6f8cc96f 739bc4ff 6e1d3dcd aff9b16b 62771392", 200),
+    "paths that turn back": ("6f8cc96f 739bc4ff 6e1d3dcd aff9b16b 62771392 "
+                             "b6194a2e 16cd3717", 200),
     "suspicions told by balls": ("84438361", 140),
     "lifting, and a stop everywhere": ("d199f604 06783930 427eac08 25c5070a", 400),
     "suspicions, sooner": ("77847fc4 33c8a7cf c07c58fe", 130),
