@@ -63,8 +63,8 @@ constexpr double kMostMissed = 1.0 / 16;
 // Errors of a problem with the rows that reduction took out.
 constexpr double kWholeResidual = 1e-7, kLooseWholeResidual = 10 * kLooseResidual;
 
-// Of what is undecided: the error of its forces, those that grow without end in part; no forces, if they are
-// worse.
+// Of what is undecided: the error of its forces; of those that grow without end, which are taken in part,
+// beside what acts. No forces, if they are worse.
 template <class Problem>
 void KeepBest(const Problem& problem, SceneAnswer& answer) {
   if (answer.Solved()) return;
@@ -72,8 +72,9 @@ void KeepBest(const Problem& problem, SceneAnswer& answer) {
   answer.error = ErrorOf(problem, none);
   const bool are_forces = answer.f.size() == problem.rows() && answer.f.allFinite();
   const double pressing = are_forces ? Pressing(problem, answer.f) : 0;
-  if (pressing > kMostPressing) answer.f *= kMostPressing / pressing;
-  const double error = are_forces ? ErrorOf(problem, answer.f) : answer.error;
+  const bool is_part = pressing > kMostPressing;
+  if (is_part) answer.f *= kMostPressing / pressing;
+  const double error = are_forces ? ErrorOf(problem, answer.f) * (is_part ? kMostPressing : 1) : answer.error;
   if (are_forces && error <= answer.error) {
     answer.error = error;
   } else {
