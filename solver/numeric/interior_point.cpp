@@ -19,17 +19,16 @@ constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolis
 
 }  // namespace
 
-// The first ends nearly all, the next two half of the rest each, and a curve most of what is left. After the
-// last the curves follow again, with other weights.
+// The first ends nearly all, the second some of the rest, and a curve most of what is left. After the last the curves follow again, with
+// other weights.
 const std::array<InteriorPoint::Attempt, InteriorPoint::kTurnCount> InteriorPoint::kTurns = {{
     {},
     {.delta = 1e-6, .first = 0.1, .spread = 0.5},
-    {.delta = 1e-7, .kappa = 1},
-    {.first = 100, .spread = 0.5, .kappa = 1, .curve = true},
     {.delta = 1e-7, .first = 10, .spread = 0.5, .kappa = 10, .curve = true},
     {.delta = 1e-7, .spread = 0.5, .curve = true},
     {.curve = true},
     {.delta = 1e-7, .kappa = 1, .curve = true},
+    {.first = 100, .spread = 0.5, .kappa = 1, .curve = true},
     {.step = 0.95, .delta = 1e-7, .spread = 1, .kappa = 100, .curve = true},
     {.step = 0.7, .spread = 0.5, .curve = true},
 }};

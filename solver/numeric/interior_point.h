@@ -99,7 +99,7 @@ class InteriorPoint {
     double kappa = 30;    // weight of slip beside normals
     bool curve = false;   // by its length
   };
-  static constexpr int kTurnCount = 10, kFirstTurns = 3;
+  static constexpr int kTurnCount = 9, kFirstTurns = 3;
   static const std::array<Attempt, kTurnCount> kTurns;
 
   int MostAttempts() const;
