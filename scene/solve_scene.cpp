@@ -31,7 +31,8 @@ constexpr double kNoise = 1e-11;
 // their drift.
 constexpr double kNoiseOfRepeated = 1e-7;
 
-constexpr int kFailures = 1;   // of Newton's method: where it fails once more, contacts have changed
+// Of Newton's method: what it has not done then from a start it seldom does.
+constexpr int kFailures = 1, kStepsFromStart = 6;
 constexpr double kAim = 1e-9;  // lenient error at which it ends
 
 template <class Problem>
@@ -217,8 +218,13 @@ SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, 
     answer.outcome = Outcome::kSolved;
   } else {
     bodies_.failures = kFailures;
+    bodies_.steps = kStepsFromStart;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
+    // Where something slips, no better forces are asked for from nothing.
+    if (!answer.Solved() && ErrorOf(problem, answer.f) <= kAim &&
+        Pressing(problem, answer.f) <= kMostPressing && !NothingSlips(problem, answer.f, bodies_.a()))
+      answer.outcome = Outcome::kSolved;
   }
   if (start == nullptr) KeepBest(problem, answer);
   if (!answer.Solved()) return answer;
@@ -240,6 +246,7 @@ void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, S
   answer.outcome = Outcome::kSolved;
   if (!interior_.IsStrict() && NothingSlips(problem, answer.f, interior_.a())) {
     bodies_.failures = kFailures;
+    bodies_.steps = BodyNewton::kSteps;
     if (bodies_.Run(problem).outcome == Outcome::kSolved) {
       answer.f = bodies_.f();
       return;

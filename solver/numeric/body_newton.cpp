@@ -15,7 +15,8 @@ constexpr int kHalvings = 6;  // of a step that does not make R smaller
 
 RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
+  constexpr int kIdle = 3;       // points that gain nothing before a solution is good enough
+  constexpr int kMostIdle = 10;  // before there is none to be found
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
   // The error of a start may cost as much as a step.
@@ -23,6 +24,7 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
     if (best_.f().size() != center_.size()) best_.Offer(center_);
   };
   if (start == nullptr || measures_start) offer_start();
+  double mark = best_.error();
   int idle = 0, failures = 0;
   while (!(best_.error() <= aim)) {
     const bool is_good = best_.IsGood();
@@ -33,13 +35,13 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
       return verdict_;
     }
     if (request_.limits.Stopped()) break;
-    if (verdict_.statistics[Counter::kPoints] == points || eps_ > kHopeless || (is_good && idle == kIdle)) {
+    if (verdict_.statistics[Counter::kPoints] == points || eps_ > kHopeless ||
+        idle >= (is_good ? kIdle : kMostIdle)) {
       if (is_good) break;
       verdict_.reason = eps_ > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
     }
     ++verdict_.statistics[Counter::kPoints];
-    ++idle;
     const Vector v = v_;
     if (!Settle()) {
       offer_start();
@@ -48,13 +50,15 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
         return verdict_;
       }
       v_ = v;
-      eps_ *= 3;
+      eps_ = std::max(3 * eps_, kFirstEps);  // of a start, too, which is far off then
       continue;
     }
+    ++idle;
     center_ = f_;
     eps_ = std::max(std::min(kLeastEps, eps_), eps_ / 10);
-    const double before = best_.error();
-    if (best_.Offer(f_) < before / 2) idle = 0;
+    if (!(best_.Offer(f_) < mark / 2)) continue;
+    mark = best_.error();
+    idle = 0;
   }
   verdict_.outcome = Outcome::kSolved;
   return verdict_;
