@@ -19,8 +19,8 @@ constexpr int kFinishSteps = 12, kFinishFailures = 2, kLastFailures = 20, kPolis
 
 }  // namespace
 
-// The first ends nearly all, the second some of the rest, and a curve most of what is left. After the last the curves follow again, with
-// other weights.
+// The first ends nearly all, the second some of the rest, and a curve most of what is left. After the last the
+// curves follow again, with other weights.
 const std::array<InteriorPoint::Attempt, InteriorPoint::kTurnCount> InteriorPoint::kTurns = {{
     {},
     {.delta = 1e-6, .first = 0.1, .spread = 0.5},
