@@ -80,7 +80,7 @@ bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
   return added;
 }
 
-// The same toward Coulomb's law.
+// The same toward Coulomb's law; the last step, if no double tells more of a direction.
 bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, OnPolygons& run,
                 Answer<Rational>& answer) {
   const auto consider = [&](const std::optional<ExactVector>& f) {
@@ -92,7 +92,12 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
   consider(run.answer.f);
   if (const auto near = NewtonPoint(rounded, run.answer.f)) consider(SolveNear(problem, *near));
   if (answer.Solved() && *answer.bound < EnoughBound()) consider(Turned(problem, answer.f));
-  return answer.bound >= EnoughBound() || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
+  if (answer.bound >= EnoughBound()) return true;
+  // A corner of few places may be there already.
+  for (int bits = 4 + 2 * run.refinements; bits < 50; bits += 2) {
+    if (RefineAgainst(problem, run, bits)) return false;
+  }
+  return true;
 }
 
 }  // namespace

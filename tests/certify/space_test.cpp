@@ -206,6 +206,17 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   CHECK(DecideExistence(wedge, {.law = FrictionLaw::kBaraff}).certificate);
 }
 
+TEST_CASE("space: a slip next to a corner of the first polygon is told from it") {
+  // Of a 16-gon the corner (0, -1) is off by 1e-5; so is the nearest direction of four places.
+  ExactProblem problem = OneContact(Rational(4095), {-31250, 0, 1});
+  problem.A = Matrix({{2147483647, 1, 0}, {1, 1, 0}, {0, 0, 1}});
+  for (const SpaceEngine engine : {SpaceEngine::kComplete, SpaceEngine::kLemke}) {
+    const ExactAnswer answer = SolveInSpace(problem, {}, engine);
+    CHECK(answer.Solved());
+    CHECK(*answer.bound >= EnoughBound());
+  }
+}
+
 TEST_CASE("space: that there is no solution is proved word by word, or not at all") {
   // aN = fN - mu fF.u - 1 for the first contact, and of the second -1/2 while the first does not touch.
   ExactProblem problem;
