@@ -409,8 +409,10 @@ int RunDraw(const AssembleCommand& o, const SceneFileIn<Kind>& file) {
   const std::string svg = DrawExplained(scene, view, touches, marks.forces, newton);
   const std::string end = fs::path(o.output).extension();
   WriteText(o.output, end == ".png" || end == ".pdf" ? Converted(svg, end.substr(1)) : svg);
-  const SharedJson done = {
-      {"written", std::vector{o.output}}, {"contacts", touches.size()}, {"forces", marks.forces.size()}};
+  const SharedJson done = {{"written", std::vector{o.output}},
+                           {"contacts", touches.size()},
+                           {"forces", marks.forces.size()},
+                           {"undecided", simulation.undecided().size()}};
   if (o.json) SayWhatWasDone(o.output, o.json, "", done);
   return kExitDone;
 }

@@ -122,6 +122,11 @@ class Scenes(cli.TestCase):
         self.assertFalse((folder / "frames").exists())
         problem = json.loads((folder / "undecided.json").read_text())
         self.assertEqual(problem["format"], "stiction-problem")
+        for body, place in zip(scene["bodies"], (-1, 1)):
+            body["position"] = [place, 0]
+        closed = self.file("closed.json", scene)
+        drawn = cli.run("draw", closed, "-o", self.folder / "closed.svg", "--json")
+        self.assertEqual((json.loads(drawn.out)["undecided"], drawn.err[:10]), (1, "stiction: "))
 
     def test_a_second_run_leaves_nothing_of_the_first(self):
         out = self.folder / "out"
