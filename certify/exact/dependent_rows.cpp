@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/exact/dependent_rows.h"
 
+#include <algorithm>
+
 #include "certify/exact/linear_equations.h"
 #include "solver/linear/direction.ipp"
 
@@ -43,11 +45,20 @@ bool ExactDependentRows::IsCombination(const std::vector<bool>& zero, int row) {
 void ExactDependentRows::ScaleToIntegers() {
   const int rows = problem_.rows();
   integers_.resize(rows, rows + 1);
-  Eigen::Matrix<Rational, 1, Eigen::Dynamic> row(rows + 1);
+  std::vector<mp_bitcnt_t> places(rows + 1);  // of denominators that are powers of two, as most are
   for (int i = 0; i < rows; ++i) {
-    row << problem_.A.row(i), problem_.b[i];
-    const auto scale = CommonDenominator<Rational>(row);
-    for (int j = 0; j <= rows; ++j) integers_(i, j) = Fractions<Rational>::Numerator(row[j], scale);
+    const auto entry = [&](int j) -> const Rational& { return j < rows ? problem_.A(i, j) : problem_.b[i]; };
+    bool is_dyadic = true;
+    for (int j = 0; j <= rows; ++j) {
+      places[j] = mpz_scan1(entry(j).get_den_mpz_t(), 0);
+      is_dyadic = is_dyadic && mpz_sizeinbase(entry(j).get_den_mpz_t(), 2) == places[j] + 1;
+    }
+    const mp_bitcnt_t most = *std::max_element(places.begin(), places.end());
+    mpz_class scale = 1;
+    for (int j = 0; j <= rows && !is_dyadic; ++j) Fractions<Rational>::Include(scale, entry(j));
+    for (int j = 0; j <= rows; ++j)
+      integers_(i, j) = is_dyadic ? mpz_class(entry(j).get_num() << (most - places[j]))
+                                  : Fractions<Rational>::Numerator(entry(j), scale);
   }
 }
 

@@ -28,9 +28,6 @@ namespace {
 template <class Number>
 constexpr bool kAsksForDependentRows = !std::is_same_v<Number, double>;
 
-// Rows from which on long floats are tried before rationals, whose numbers are short in small problems.
-constexpr int kLongFrom = 8;
-
 // What rationals know, in balls.
 template <class Number>
 class EnclosedRows final : public ExactDirections<Ball<Number>> {
@@ -157,7 +154,7 @@ std::optional<OnRung> TryPublished(const ExactProblem& problem, const Request& r
   algorithm.request() = request;
   algorithm.KnowDependentRows(kAsksForDependentRows<Number> ? &dependent : nullptr);
   Trace<Ball<Number>> trace;
-  trace.keep_pivots = rung == Rung::kExact;  // whose runs are dear
+  trace.keep_pivots = rung != Rung::kDouble;
   try {
     OnRung run = {algorithm.Run(Converted<Ball<Number>>(problem, &BallAround<Number>), &trace), rung, true};
     if (run.verdict.outcome != Outcome::kSolved)
@@ -181,17 +178,14 @@ OnRung RunPublishedFiltered(const ExactProblem& problem, const Request& request,
   if (rungs.first == Rung::kDouble) {
     if (auto run = TryPublished<double>(remaining, request, rows, Rung::kDouble)) return *std::move(run);
   }
-  if (rungs.first < Rung::kExact) {
-    if (Rung::kDoubleDouble <= rungs.last) {
-      if (auto run = TryPublished<dd_real>(remaining, request, rows, Rung::kDoubleDouble))
-        return *std::move(run);
-    }
-    if (Rung::kExact == rungs.last && remaining.rows() >= kLongFrom) {
-      if (auto run = TryPublished<LongFloat>(remaining, request, rows, Rung::kExact)) {
-        if (&remaining != &problem) run->pivots.clear();  // in other rows
-        return *std::move(run);
-      }
-    }
+  std::optional<OnRung> run;
+  if (rungs.first < Rung::kExact && Rung::kDoubleDouble <= rungs.last)
+    run = TryPublished<dd_real>(remaining, request, rows, Rung::kDoubleDouble);
+  if (!run && rungs.first < Rung::kExact && Rung::kExact == rungs.last)
+    run = TryPublished<LongFloat>(remaining, request, rows, Rung::kExact);
+  if (run) {
+    if (&remaining != &problem) run->pivots.clear();  // in other rows
+    return *std::move(run);
   }
   if (rungs.last != Rung::kExact || !rungs.with_rationals)
     return {{Outcome::kUndecided, kUnsureSign}, rungs.last};
@@ -269,7 +263,7 @@ ExactAnswer RunCompleteFiltered(const ExactProblem& problem, const Limits& limit
     rung = Rung::kDoubleDouble;
     ExactDependentRows dependent(remainder.problem());
     answer = TryComplete<dd_real>(remainder.problem(), limits, &dependent);
-    if (!answer && problem.rows() >= kLongFrom) {
+    if (!answer) {
       rung = Rung::kExact;
       answer = TryComplete<LongFloat>(remainder.problem(), limits, &dependent);
     }

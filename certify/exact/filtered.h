@@ -7,7 +7,7 @@
 //   double-double   balls around double-doubles, 100 bits      besides, accelerations that follow from others
 //                                                              (dependent_rows.h), and open pivots of
 //                                                              directions
-//   exact           balls around floats of 512 bits             as many
+//   exact           balls around floats of 254 bits             as many
 //                   rationals, where these leave a sign open   all
 //
 // Where nobody asks for the path, only for a solution, none is followed with certified signs: CertifyDoubles
@@ -61,7 +61,7 @@ struct OnRung {
   Verdict verdict;
   Rung rung = Rung::kExact;
   bool by_balls = false;  // not by rationals
-  // Of a run over long floats that is not solved, on a problem without other kinds; otherwise empty.
+  // Of a run beyond doubles that is not solved, on a problem without other kinds; otherwise empty.
   std::vector<Pivot<double>> pivots = {};
 };
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// LongFloat: a float of 512 bits by MPFR, for balls where those around double-doubles leave a sign open.
+// LongFloat: a float of 254 bits by MPFR, for balls where those around double-doubles leave a sign open.
 //
-// It is to the nearest in 2^-512 of itself, and its exponents are without a bound here. Radii are doubles, so
+// It is to the nearest in 2^-254 of itself, and its exponents are without a bound here. Radii are doubles, so
 // what falls below the doubles gets a radius of kLost, and what grows beyond them decides nothing.
 
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "certify/exact/wide_ball.h"
@@ -17,12 +19,12 @@
 namespace stiction {
 
 using LongFloat = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<154, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::mpfr_float_backend<76, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
 
 template <>
 struct Rounding<LongFloat> {
-  static constexpr double kUnit = 0x1p-508;  // with a wide margin
+  static constexpr double kUnit = 0x1p-250;  // with a wide margin
   static constexpr double kLost = 0x1p-990;
   static constexpr double kLeast = 0x1p-900;  // below it a number has a radius of kLost
 
@@ -34,6 +36,9 @@ struct Rounding<LongFloat> {
     const auto* limbs = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(at));
     const auto lead = static_cast<double>(limbs[(mpfr_get_prec(at) - 1) / mp_bits_per_limb]);
     const mpfr_exp_t exponent = std::clamp<mpfr_exp_t>(mpfr_get_exp(at) - mp_bits_per_limb, -3000, 3000);
+    constexpr int kUsual = 900, kBias = 1023, kMantissa = 52;  // powers of two that are doubles, by their bits
+    if (std::abs(exponent) <= kUsual)
+      return lead * std::bit_cast<double>(static_cast<std::int64_t>(exponent + kBias) << kMantissa);
     return std::ldexp(lead, static_cast<int>(exponent));
   }
   static double OfSum(const LongFloat& x, const LongFloat& y, const LongFloat&) {

@@ -2,64 +2,141 @@
 #include "certify/exact/polygons.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "certify/exact/lemke_space.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
+#include "certify/exact/wide_ball.h"
+#include "corpus/lifting.h"
+#include "corpus/rounded.h"
+#include "solver/complete/complete.ipp"
 #include "solver/problem/units.h"
 
 namespace stiction {
-
-OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
-                    Trace<Rational>* trace) {
-  CompleteDriving<Rational> driving({.limits = limits});
-  OnPolygons run = {AnswerOf<Rational>(driving.Run(problem, polygons, trace)), driving.word(),
-                    std::move(polygons)};
-  run.answer.f = driving.f();
-  run.answer.a = driving.a();
-  if (run.answer.outcome == Outcome::kRay) run.answer.ray = driving.ray();
-  return run;
-}
 
 // ---- Words as linear equations ---------------------------------------------------------------
 
 namespace {
 
+// Numbers of the rows of a contact, from its first on.
+using AtContact = std::pair<int, std::array<Rational, 3>>;
+
+// M x = right
 struct ModeSystem {
-  std::vector<ExactVector> columns;  // force per unit of an unknown
-  std::vector<ExactVector> rows;     // accelerations along these vanish
-  ExactVector guess;                 // of the unknowns
+  std::vector<AtContact> columns;  // force per unit of an unknown
+  ExactVector guess;               // of the unknowns
+  ExactMatrix M;
+  ExactVector right;
+
+  ExactVector Forces(const ExactProblem& problem, const ExactVector& x) const {
+    ExactVector f = ExactVector::Zero(problem.rows());
+    for (int j = 0; j < x.size(); ++j) {
+      const auto& [row, force] = columns[j];
+      for (int k = 0; k < 3; ++k) {
+        if (force[k] != 0) f[row + k] += x[j] * force[k];
+      }
+    }
+    return f;
+  }
 };
 
+// `edges`: along which friction and its acceleration are free beside their direction; zero where along none.
 ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
-                      const ExactVector& guess) {
+                      const ExactVector& guess, const std::vector<Planar<Rational>>& edges = {}) {
   ModeSystem system;
+  std::vector<AtContact> rows;  // accelerations along these vanish
   std::vector<Rational> unknowns;
   ForEachContact(problem, [&](int i, int row, int) {
     const Contact<Rational>& contact = problem.contacts[i];
-    const auto unit = [&](int k) {
-      ExactVector v = ExactVector::Zero(problem.rows());
-      v[row + k] = 1;
-      return v;
-    };
     const int held = modes[i].law == Law::kBreak ? 0 : modes[i].law == Law::kInside ? 3 : 1;
     for (int k = 0; k < held; ++k) {
-      system.rows.push_back(unit(k));
-      system.columns.push_back(unit(k));
+      rows.push_back({row, {}});
+      rows.back().second[k] = 1;
+      system.columns.push_back(rows.back());
       unknowns.push_back(guess[row + k]);
     }
     if (held == 1 && contact.HasFrictionRows()) {
       const bool slips = modes[i].law == Law::kCorner;
       const Planar<Rational>& direction = slips ? modes[i].direction : contact.slip;
       const Rational factor = slips ? contact.mu : Rational(-contact.mu);
-      for (int k = 0; k < 2; ++k) system.columns.back()[row + 1 + k] = factor * direction[k];
+      for (int k = 0; k < 2; ++k) system.columns.back().second[1 + k] = factor * direction[k];
+    }
+    if (!edges.empty() && edges[i] != Planar<Rational>()) {
+      rows.push_back({row, {Rational(0), edges[i][0], edges[i][1]}});
+      system.columns.push_back(rows.back());
+      unknowns.push_back(0);
     }
   });
-  system.guess = ExactVector(static_cast<int>(unknowns.size()));
-  for (std::size_t j = 0; j < unknowns.size(); ++j) system.guess[static_cast<int>(j)] = unknowns[j];
+  const int size = static_cast<int>(unknowns.size());
+  system.guess.resize(size);
+  system.M = ExactMatrix::Zero(size, size);
+  system.right = ExactVector::Zero(size);
+  for (int i = 0; i < size; ++i) {
+    const auto& [row, along] = rows[i];
+    system.guess[i] = unknowns[i];
+    for (int r = 0; r < 3; ++r) {
+      if (along[r] == 0) continue;
+      system.right[i] -= along[r] * problem.b[row + r];
+      for (int j = 0; j < size; ++j) {
+        const auto& [column, force] = system.columns[j];
+        for (int k = 0; k < 3; ++k) {
+          if (force[k] != 0) system.M(i, j) += along[r] * force[k] * problem.A(row + r, column + k);
+        }
+      }
+    }
+  }
   return system;
+}
+
+// Of cells of polygons, where their equations have one solution.
+std::optional<ExactVector> SolveCells(const ExactProblem& problem, const CellWord& word,
+                                      const RationalPolygons& polygons) {
+  std::vector<SpaceMode> modes;
+  std::vector<Planar<Rational>> edges(word.size());
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    modes.push_back({word[i].law, {Rational(0), Rational(0)}});
+    if (word[i].law != Law::kCorner && word[i].law != Law::kEdge) continue;
+    if (word[i].law == Law::kEdge) edges[i] = polygons[i].edge(word[i].side);
+    modes[i] = {Law::kCorner, polygons[i].corner(word[i].side)};
+  }
+  const ModeSystem system = MakeSystem(problem, modes, ExactVector::Zero(problem.rows()), edges);
+  if (system.columns.empty()) return ExactVector(ExactVector::Zero(problem.rows()));
+  IntegerVector scale;
+  const IntegerRows rows = InIntegers(system.M, scale);
+  std::vector<Rational> right;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    right.emplace_back(system.right[static_cast<int>(i)] * scale[i]);
+  const auto lifted = SolveLifted(rows, {right}, LiftingPrime(0));
+  if (!lifted) return std::nullopt;
+  const CommonFractions& fractions = lifted->front();
+  ExactVector x(system.right.size());
+  for (int j = 0; j < x.size(); ++j)
+    x[j] = Fractions<Rational>::Quotient(fractions.numerators[j], fractions.denominator);
+  return system.Forces(problem, x);
+}
+
+// Complete driving over balls: where they tell all signs the path is that over rationals. Its end is exact.
+std::optional<OnPolygons> RunOverBalls(const ExactProblem& problem, const RationalPolygons& polygons,
+                                       const Limits& limits) {
+  thread_local CompleteDriving<WideBall> driving;
+  driving.request().limits = limits;
+  std::vector<FrictionPolygon<WideBall>> enclosed;
+  for (const auto& polygon : polygons) enclosed.emplace_back(polygon, &BallAround<dd_real>);
+  OnPolygons run;
+  try {
+    run.answer = AnswerOf<Rational>(driving.Run(Converted<WideBall>(problem, &BallAround<dd_real>), enclosed));
+  } catch (const UnsureSign&) {
+    return std::nullopt;
+  }
+  auto f = run.answer.Solved() ? SolveCells(problem, driving.word(), polygons) : std::nullopt;
+  if (!f) return std::nullopt;
+  run.word = driving.word();
+  run.answer.a = Accelerations(problem, *f);
+  run.answer.f = *std::move(f);
+  return run;
 }
 
 }  // namespace
@@ -67,19 +144,25 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
 std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
                                       const ExactVector& guess) {
   const ModeSystem system = MakeSystem(problem, modes, guess);
-  const int size = static_cast<int>(system.columns.size());
-  ExactMatrix M(size, size);
-  ExactVector right(size);
-  for (int j = 0; j < size; ++j) {
-    const ExactVector image = Accelerations(problem, system.columns[j]) - problem.b;
-    for (int i = 0; i < size; ++i) M(i, j) = system.rows[i].dot(image);
-    right[j] = -system.rows[j].dot(problem.b);
+  const auto x = SolveEquations(system.M, system.right, system.guess);
+  return x ? std::optional(system.Forces(problem, *x)) : std::nullopt;
+}
+
+OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
+                    Trace<Rational>* trace) {
+  if (trace == nullptr) {
+    if (auto run = RunOverBalls(problem, polygons, limits)) {
+      run->polygons = std::move(polygons);
+      return *std::move(run);
+    }
   }
-  const auto x = SolveEquations(M, right, system.guess);
-  if (!x) return std::nullopt;
-  ExactVector f = ExactVector::Zero(problem.rows());
-  for (int j = 0; j < size; ++j) f += (*x)[j] * system.columns[j];
-  return f;
+  CompleteDriving<Rational> driving({.limits = limits});
+  OnPolygons run = {AnswerOf<Rational>(driving.Run(problem, polygons, trace)), driving.word(),
+                    std::move(polygons)};
+  run.answer.f = driving.f();
+  run.answer.a = driving.a();
+  if (run.answer.outcome == Outcome::kRay) run.answer.ray = driving.ray();
+  return run;
 }
 
 // ---- Directions ------------------------------------------------------------------------------

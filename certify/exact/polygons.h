@@ -25,7 +25,8 @@ struct OnPolygons {
   int refinements = 0;  // before this run
 };
 
-// Complete driving over rationals; with `trace`, every linear piece is recorded.
+// Complete driving; with `trace` over rationals, every linear piece recorded. Otherwise over balls where these
+// tell every sign: the same word, forces and counters.
 OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
                     Trace<Rational>* trace = nullptr);
 

@@ -10,13 +10,17 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "search/generators/choices.h"
 #include "search/generators/generators.h"
+#include "solver/problem/check.h"
 #include "solver/problem/scalar.h"
 
 namespace stiction::generators {
@@ -73,13 +77,25 @@ Jacobian<Scalar, Rows> DrawIntegers(int rows, int columns, Choices& choices) {
   return J;
 }
 
-// Numbers entry(0), ..., entry(count - 1) as integers, and what they are over.
+// Numbers entry(0), ..., entry(count - 1) as integers, and what they are over. They may be doubles.
 template <class Scalar, class Entry>
 auto OverOneDenominator(int count, Entry entry) {
   using Parts = Fractions<Scalar>;
-  std::pair<std::vector<typename Parts::Integer>, typename Parts::Integer> over = {{}, 1};
-  for (int k = 0; k < count; ++k) Parts::Include(over.second, entry(k));
-  for (int k = 0; k < count; ++k) over.first.push_back(Parts::Numerator(entry(k), over.second));
+  using Integer = typename Parts::Integer;
+  std::pair<std::vector<Integer>, Integer> over = {{}, 1};
+  over.first.reserve(count);
+  if constexpr (std::is_same_v<std::decay_t<decltype(entry(0))>, double>) {
+    int places = 0;
+    for (int k = 0; k < count; ++k) {
+      if (entry(k) != 0) places = std::max(places, 52 - std::ilogb(entry(k)));
+    }
+    STICTION_CHECK(places < 900, "doubles that are integers over a power of two");
+    over.second = Integer(std::ldexp(1.0, places));
+    for (int k = 0; k < count; ++k) over.first.emplace_back(std::ldexp(entry(k), places));
+  } else {
+    for (int k = 0; k < count; ++k) Parts::Include(over.second, entry(k));
+    for (int k = 0; k < count; ++k) over.first.push_back(Parts::Numerator(entry(k), over.second));
+  }
   return over;
 }
 
@@ -91,17 +107,26 @@ Scalar DotOf(const Over& x, const Over& y) {
   return Fractions<Scalar>::Quotient(sum, under);
 }
 
+// Its rows, each over one denominator.
+template <class Scalar, class Factor>
+auto RowsOverOneDenominator(const Factor& M, int rows, int columns) {
+  std::vector<decltype(OverOneDenominator<Scalar>(0, [](int) { return Scalar(0); }))> over;
+  for (int i = 0; i < rows; ++i)
+    over.push_back(OverOneDenominator<Scalar>(
+        columns, [&](int k) -> const auto& { return M(i, k); }));
+  return over;
+}
+
 // A = L R', which is symmetric: L = J W, R = J.
 template <class Scalar, int Rows, class Factor>
 void SetProduct(const Factor& L, const Factor& R, int columns, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   if constexpr (kIsExact<Scalar>) {
-    std::vector<decltype(OverOneDenominator<Scalar>(0, [](int) { return Scalar(0); }))> left;
-    for (int i = 0; i < rows; ++i)
-      left.push_back(OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return L(i, k); }));
+    const auto left = RowsOverOneDenominator<Scalar>(L, rows, columns);
+    const auto other = RowsOverOneDenominator<Scalar>(R, &L == &R ? 0 : rows, columns);
+    const auto& right = other.empty() ? left : other;
     for (int j = 0; j < rows; ++j) {
-      const auto right = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return R(j, k); });
-      for (int i = j; i < rows; ++i) problem.A(i, j) = DotOf<Scalar>(left[i], right);
+      for (int i = j; i < rows; ++i) problem.A(i, j) = DotOf<Scalar>(left[i], right[j]);
     }
     return;
   }
@@ -123,8 +148,8 @@ void MirrorLowerTriangle(ContactProblem<Scalar, Rows>& problem) {
 }
 
 // A = J J'.
-template <class Scalar, int Rows>
-void SetGram(const Jacobian<Scalar, Rows>& J, int columns, ContactProblem<Scalar, Rows>& problem) {
+template <class Scalar, int Rows, class Factor>
+void SetGram(const Factor& J, int columns, ContactProblem<Scalar, Rows>& problem) {
   SetProduct(J, J, columns, problem);
   if constexpr (kIsExact<Scalar>) MirrorLowerTriangle(problem);
 }
@@ -134,11 +159,12 @@ template <class Scalar, int Rows, class Factor, class Coefficient>
 void SetImage(const Factor& M, int columns, Coefficient y, ContactProblem<Scalar, Rows>& problem) {
   const int rows = problem.rows();
   if constexpr (kIsExact<Scalar>) {
-    const auto over = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return y(k); });
-    for (int i = 0; i < rows; ++i) {
-      const auto row = OverOneDenominator<Scalar>(columns, [&](int k) -> Scalar { return M(i, k); });
-      problem.b[i] = DotOf<Scalar>(row, over);
-    }
+    std::vector<Scalar> coefficients;
+    for (int k = 0; k < columns; ++k) coefficients.push_back(y(k));
+    const auto over =
+        OverOneDenominator<Scalar>(columns, [&](int k) -> const Scalar& { return coefficients[k]; });
+    const auto rows_of_M = RowsOverOneDenominator<Scalar>(M, rows, columns);
+    for (int i = 0; i < rows; ++i) problem.b[i] = DotOf<Scalar>(rows_of_M[i], over);
     return;
   }
   for (int i = 0; i < rows; ++i) problem.b[i] = Scalar(0);

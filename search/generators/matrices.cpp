@@ -193,12 +193,8 @@ int FillConditioned(Choices& choices, ContactProblem<Scalar, Rows>& problem) {
   const int columns = full ? rows : static_cast<int>(choices.Integer(1, rows - 1));
   Jacobian<double, Rows> rounded = SingularValues<Rows>(rows, columns, exponent);
   for (int size = 2; size <= rows; ++size) DrawReflection<Rows>(rows, columns, size, choices, rounded);
-  auto J = MakeJacobian<Scalar, Rows>(rows, columns);
-  for (int k = 0; k < columns; ++k) {
-    for (int i = 0; i < rows; ++i) J(i, k) = Scalar(rounded(i, k));
-  }
-  SetGram(J, columns, problem);
-  DrawImage<Scalar, Rows, -5, 5>(J, columns, choices, problem);
+  SetGram(rounded, columns, problem);
+  DrawImage<Scalar, Rows, -5, 5>(rounded, columns, choices, problem);
   return columns;
 }
 

@@ -118,6 +118,29 @@ TEST_CASE("space: the polygon alone proves its inner radius") {
   }
 }
 
+// A run that is traced is one over rationals throughout.
+TEST_CASE("space: complete driving over balls ends as over rationals, by as many pieces") {
+  int edges = 0, moved = 0;
+  for (int index = 0; index < 60; ++index) {
+    CAPTURE(index);
+    const ExactProblem problem = RandomInSpace(1 + index % 4, 2000 + index);
+    const RationalPolygons polygons(problem.contacts.size(), FrictionPolygon<Rational>(8));
+    Trace<Rational> trace;
+    const OnPolygons exact = RunSpace(problem, polygons, Limits{}, &trace);
+    const OnPolygons run = RunSpace(problem, polygons, Limits{});
+    CHECK(run.answer.outcome == exact.answer.outcome);
+    CHECK(run.answer.counters == exact.answer.counters);
+    CHECK(run.answer.f == exact.answer.f);
+    CHECK(run.answer.a == exact.answer.a);
+    CHECK(run.word == exact.word);
+    CHECK(run.polygons.size() == polygons.size());
+    for (const LawCell& cell : run.word) edges += cell.law == Law::kEdge;
+    moved += !run.answer.f.isZero(0);
+  }
+  CHECK(edges > 5);
+  CHECK(moved > 30);
+}
+
 TEST_CASE("lemke in space: the law on polygons, exactly") {
   for (int index = 0; index < 90; ++index) {
     CAPTURE(index);
