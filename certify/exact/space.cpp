@@ -80,7 +80,7 @@ bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
   return added;
 }
 
-// The same toward Coulomb's law; the last step, if no double tells more of a direction.
+// The same toward Coulomb's law.
 bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& rounded, OnPolygons& run,
                 Answer<Rational>& answer) {
   const auto consider = [&](const std::optional<ExactVector>& f) {
@@ -93,11 +93,9 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
   if (const auto near = NewtonPoint(rounded, run.answer.f)) consider(SolveNear(problem, *near));
   if (answer.Solved() && *answer.bound < EnoughBound()) consider(Turned(problem, answer.f));
   if (answer.bound >= EnoughBound()) return true;
-  // A corner of few places may be there already.
-  for (int bits = 4 + 2 * run.refinements; bits < 50; bits += 2) {
-    if (RefineAgainst(problem, run, bits)) return false;
-  }
-  return true;
+  int bits = 4 + 2 * run.refinements;  // a corner of so few may be there already
+  while (bits < 50 && !RefineAgainst(problem, run, bits)) bits += 2;
+  return bits >= 50;
 }
 
 }  // namespace
