@@ -79,12 +79,14 @@ template <class Kind>
 Problems FirstProblems(const SceneFileIn<Kind>& file, bool friction, std::size_t count) {
   Problems met;
   std::size_t rows = 1;
-  SimulationIn<Kind> simulation(Round(file.scene), ToDouble(file.step), 0, [&](const FrameProblem& of) {
-    const std::size_t size = of.problem.b.size();
-    if (of.level != Level::kForces || size < rows || !IsAllOf(of.problem, KindOf(friction))) return;
+  SimulationIn<Kind> simulation(Round(file.scene), ToDouble(file.step), 0, [&](const FrameProblemIn<Kind>& of) {
+    const std::size_t size = of.f.size();
+    if (of.level != Level::kForces || size < rows) return;
+    Problem problem = of.model.Problem(of.island);
+    if (!IsAllOf(problem, KindOf(friction))) return;
     if (size > rows) met.clear();
     rows = size;
-    met.push_back(of.problem);
+    met.push_back(std::move(problem));
   });
   tbb::task_arena one_thread(1);
   one_thread.execute([&] {

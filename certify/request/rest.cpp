@@ -14,6 +14,7 @@
 #include "certify/exact/space.h"
 #include "certify/exact/verify_solution.h"
 #include "corpus/rounded.h"
+#include "solver/numeric/fast.h"
 #include "solver/problem/row_scale.h"
 #include "solver/problem/units.h"
 #include "solver/solve.h"
@@ -75,92 +76,93 @@ double OutsideCone(const Contact<double>& contact, const Eigen::VectorXd& f, int
 std::pair<Eigen::MatrixXd, ContactProblem<double>> AlongCones(const ContactProblem<double>& problem) {
   constexpr int kSides = 8;
   const double around = 1 / std::cos(std::numbers::pi / kSides);
-  Eigen::MatrixXd E;
+  Eigen::MatrixXd E = Eigen::MatrixXd::Zero(problem.rows(), kSides * std::ssize(problem.contacts));
   ContactProblem<double> pushing;
   ForEachContact(problem, [&](int i, int row, int rows) {
     const Contact<double>& contact = problem.contacts[i];
     const int edges = rows == 1 || contact.mu == 0 ? 1 : rows == 2 ? 2 : kSides;
     for (int k = 0; k < edges; ++k) {
-      Eigen::VectorXd edge = Eigen::VectorXd::Unit(problem.rows(), row);
+      auto edge = E.col(std::ssize(pushing.contacts));
       const double angle = 2 * std::numbers::pi * k / kSides;
+      edge[row] = 1;
       if (edges == 2) edge[row + 1] = k == 0 ? contact.mu : -contact.mu;
       if (edges == kSides) edge.segment(row + 1, 2) << std::cos(angle), std::sin(angle);
       if (edges == kSides) edge.segment(row + 1, 2) *= contact.mu * around;
-      E.conservativeResize(problem.rows(), E.cols() + 1);
-      E.rightCols(1) = edge;
       const bool is_held = contact.kind == ContactKind::kBilateral;
       pushing.contacts.push_back({is_held ? ContactKind::kBilateral : ContactKind::kFrictionless, 0, {}});
     }
   });
+  E.conservativeResize(Eigen::NoChange, std::ssize(pushing.contacts));
   pushing.A = E.transpose() * problem.A * E;
   pushing.b = E.transpose() * problem.b;
   return {E, pushing};
 }
 
-// What doubles tell of forces in their cones that leave no acceleration: the only such forces, in or out of
-// their cones; what all forces in the cones leave at least, by row; each may be empty. Of forces along the
-// edges those that push and never pull leave the least where A is semidefinite.
-std::pair<Eigen::VectorXd, Eigen::VectorXd> BalanceOf(const ContactProblem<double>& problem) {
+// Forces that leave no acceleration, as doubles find them: the only such ones, in or out of their cones (true);
+// or of forces in the cones those that leave the least (false). Empty where none are found. Of forces along the
+// edges those that push and never pull leave the least where A is semidefinite; b is next to nothing along
+// some, so what is noise there counts as none.
+std::pair<Eigen::VectorXd, bool> BalanceOf(const ContactProblem<double>& problem) {
   constexpr int kFewRows = 4 * kQuickRows;
   constexpr double kRegular = 1e-6, kRounding = 1e-9;
-  const auto left_by = [&problem](const Eigen::VectorXd& f) -> Eigen::VectorXd {
-    return problem.A * f + problem.b;
-  };
-  const auto least_of_all = [&]() -> Eigen::VectorXd {
-    if (problem.rows() > kFewRows) return {};
-    return left_by(-problem.A.completeOrthogonalDecomposition().solve(problem.b));
-  };
   if (problem.A != problem.A.transpose()) {
     const Eigen::PartialPivLU<Eigen::MatrixXd> factors(problem.A);
-    if (factors.rcond() > kRegular) return {-factors.solve(problem.b), Eigen::VectorXd()};
-    return {Eigen::VectorXd(), least_of_all()};
+    if (factors.rcond() > kRegular) return {-factors.solve(problem.b), true};
+    if (problem.rows() > kFewRows) return {};
+    return {-problem.A.completeOrthogonalDecomposition().solve(problem.b), false};
   }
   const Eigen::LDLT<Eigen::MatrixXd> factors(problem.A);
-  const Eigen::VectorXd pivots = factors.vectorD(), f = -factors.solve(problem.b);
-  if (pivots.minCoeff() > kRegular * pivots.maxCoeff()) return {f, Eigen::VectorXd()};
-  if (!(left_by(f).cwiseAbs().maxCoeff() <= kRounding)) {
-    Eigen::VectorXd left = least_of_all();
-    if (left.size() == 0 || left.cwiseAbs().maxCoeff() > kRounding) return {Eigen::VectorXd(), std::move(left)};
-  }
+  const Eigen::VectorXd pivots = factors.vectorD();
+  if (pivots.minCoeff() > kRegular * pivots.maxCoeff()) return {-factors.solve(problem.b), true};
   if (problem.rows() > kFewRows || pivots.minCoeff() < -kRounding * pivots.maxCoeff()) return {};
   const auto [E, pushing] = AlongCones(problem);
-  const Answer<double> answer = Solve(pushing, {.method = "fast"});
-  if (!answer.Solved()) return {};
-  return {Eigen::VectorXd(), left_by(E * answer.f)};
+  FastSolver<double> solver({.noise = kRounding});
+  if (solver.Run(pushing).outcome != Outcome::kSolved) return {};
+  return {E * solver.f(), false};
 }
 
-// Whether doubles tell that no group of contacts that moves has forces under which it rests: the only ones that
-// leave no acceleration are clearly outside of their cones, or all in their cones clearly leave some.
-bool CannotRest(const ContactProblem<double>& given, const ExactVector& moving) {
+// Forces f, but of groups of contacts that move and may rest those that doubles find for them; f itself where
+// doubles do not tell. Empty where they tell that no group that moves has forces under which it rests: the only
+// ones that leave no acceleration are clearly outside of their cones, or all in their cones clearly leave some.
+template <class Moving>
+std::optional<Eigen::VectorXd> RestByDoubles(const ContactProblem<double>& given, const Moving& moving,
+                                             Eigen::VectorXd f) {
   constexpr double kClearly = 1e-6;
   const bool is_open = std::ranges::any_of(given.contacts, [](const auto& contact) {
     return contact.kind == ContactKind::kSliding || !std::isfinite(contact.mu);
   });
-  if (is_open || given.rows() == 0) return false;
-  const ContactProblem<double> problem = Scaled(given, FindScale(given));  // b of each group is about 1
+  if (is_open || given.rows() == 0) return f;
+  const RowScale scale = FindScale(given);
+  const ContactProblem<double> problem = Scaled(given, scale);  // b of each group is about 1
   const auto balance = BalanceOf(problem);
-  const Eigen::VectorXd &only = balance.first, &left = balance.second;
-  const Eigen::VectorXd& found = only.size() > 0 ? only : left;
-  if (found.size() == 0 || !found.allFinite()) return false;
+  const Eigen::VectorXd& found = balance.first;
+  const bool is_only = balance.second;
+  if (found.size() == 0 || !found.allFinite()) return f;
+  const Eigen::VectorXd left = problem.A * found + problem.b;
   Groups groups;
   groups.Find(problem);
   std::vector<char> moves(problem.contacts.size(), false), leaves = moves;
-  const double clear = only.size() > 0 ? kClearly * only.cwiseAbs().maxCoeff() : kClearly;
+  const double clear = is_only ? kClearly * found.cwiseAbs().maxCoeff() : kClearly;
   ForEachContact(problem, [&](int i, int row, int rows) {
     const int group = groups.Of(i);
     for (int k = row; k < row + rows; ++k) moves[group] |= moving[k] != 0;
-    const double misses = only.size() > 0 ? OutsideCone(problem.contacts[i], only, row, rows)
-                                          : left.segment(row, rows).cwiseAbs().maxCoeff();
+    const double misses = is_only ? OutsideCone(problem.contacts[i], found, row, rows)
+                                  : left.segment(row, rows).cwiseAbs().maxCoeff();
     leaves[group] |= misses > clear;
   });
-  for (std::size_t i = 0; i < moves.size(); ++i)
-    if (moves[i] && !leaves[i]) return false;
-  return true;
+  bool may_rest = false;
+  for (int k = 0; k < f.size(); ++k) {
+    const int group = groups.OfRow(k);
+    if (!moves[group] || leaves[group]) continue;
+    f[k] = std::ldexp(found[k], scale.f[k]);
+    may_rest = true;
+  }
+  return may_rest ? std::optional(std::move(f)) : std::nullopt;
 }
 
 // Whether a group of contacts moves that is small enough to look for forces at rest.
-template <class Factors>
-bool MoveInSmallGroups(const Factors& problem, const ExactVector& moving) {
+template <class Factors, class Moving>
+bool MoveInSmallGroups(const Factors& problem, const Moving& moving) {
   if (moving.isZero(0)) return false;
   Groups groups;
   groups.Find(problem);
@@ -183,7 +185,8 @@ void PreferRest(const AnyProblem& problem, const ContactProblem<double>* rounded
   const auto* factors = problem.factors();
   const ExactVector a =
       factors != nullptr ? factors->Accelerations(answer.f) : Accelerations(problem, answer.f);
-  if (a.isZero(0) || (rounded != nullptr && CannotRest(*rounded, a))) return;
+  if (a.isZero(0)) return;
+  if (rounded != nullptr && !RestByDoubles(*rounded, a, Eigen::VectorXd::Zero(a.size()))) return;
   const bool is_small = factors == nullptr || MoveInSmallGroups(*factors, a);
   auto rest = is_small ? ForcesAtRest(problem, answer.f, a) : std::nullopt;
   if (!rest) return PreferLessMotion(problem, request, answer);
@@ -198,11 +201,11 @@ namespace {
 
 // Accelerations that are no rounding, of contacts in their own units or by enclosures; the others are zero.
 template <class Problem>
-ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
+Eigen::VectorXd MovingRows(const Problem& problem, const InexactAnswer& answer) {
   constexpr double kMoves = 1e-6;
   LenientUnits<double> units;
   units.Take(problem, answer.f);
-  ExactVector moving = ExactVector::Zero(answer.a.size());
+  Eigen::VectorXd moving = Eigen::VectorXd::Zero(answer.a.size());
   for (int i = 0; i < moving.size(); ++i) {
     const bool moves = answer.a_enclosed.empty()
                            ? std::abs(answer.a[i]) > kMoves * units.acceleration(i)
@@ -215,20 +218,36 @@ ExactVector Moving(const Problem& problem, const InexactAnswer& answer) {
 }  // namespace
 
 bool MayRest(const FactoredProblem<double>& problem, const InexactAnswer& answer) {
-  return answer.Solved() && MoveInSmallGroups(problem, Moving(problem, answer));
+  return answer.Solved() && MoveInSmallGroups(problem, MovingRows(problem, answer));
 }
 
 void PreferRest(const ContactProblem<double>& rounded, const std::function<const AnyProblem&()>& file,
                 const Request& request, InexactAnswer& answer) {
   if (!MayPreferRest(answer, request)) return;
-  const ExactVector moving = Moving(rounded, answer);
-  if (moving.isZero(0) || CannotRest(rounded, moving)) return;
-  const ExactVector f = answer.f.unaryExpr([](double x) { return Rational(x); });
-  const auto rest = ForcesAtRest(file(), f, moving);
+  const Eigen::VectorXd moving = MovingRows(rounded, answer);
+  if (moving.isZero(0)) return;
+  const auto by_doubles = RestByDoubles(rounded, moving, answer.f);
+  if (!by_doubles) return;
+  const auto take = [&](Eigen::VectorXd f) {
+    InexactAnswer resting = answer;
+    resting.f = std::move(f);
+    JudgeAnswer(rounded, ResidualOf<double>(request), resting);
+    return resting;
+  };
+  const auto become = [&answer](InexactAnswer resting) {
+    resting.word.clear();
+    resting.moves_elsewhere = true;
+    answer = std::move(resting);
+  };
+  if (answer.f_enclosed.empty() && *by_doubles != answer.f) {
+    InexactAnswer resting = take(*by_doubles);
+    if (resting.Solved() && (MovingRows(rounded, resting).array() != 0).count() < (moving.array() != 0).count())
+      return become(std::move(resting));
+  }
+  const auto exact = [](double x) { return Rational(x); };
+  const auto rest = ForcesAtRest(file(), answer.f.unaryExpr(exact), moving.unaryExpr(exact));
   if (!rest) return;
-  InexactAnswer resting = answer;
-  resting.f = rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); });
-  JudgeAnswer(rounded, ResidualOf<double>(request), resting);
+  InexactAnswer resting = take(rest->f.unaryExpr([](const Rational& x) { return ToDouble(x); }));
   if (!resting.Solved()) return;
   if (!answer.f_enclosed.empty()) resting.a = answer.a;
   for (int i = 0; i < static_cast<int>(answer.f_enclosed.size()); ++i) {
@@ -238,9 +257,7 @@ void PreferRest(const ContactProblem<double>& rounded, const std::function<const
     resting.a_enclosed[i] = {0, 0};
     resting.a[i] = 0;
   }
-  resting.word.clear();
-  resting.moves_elsewhere = true;
-  answer = std::move(resting);
+  become(std::move(resting));
 }
 
 }  // namespace stiction
