@@ -211,14 +211,14 @@ SceneAnswer SceneSolver::Methods::SolveScaled(const Dense& problem) {
 SceneAnswer SceneSolver::Methods::Solve(const FactoredProblem<double>& problem, const Eigen::VectorXd* start) {
   SceneAnswer answer;
   bodies_.request().noise = interior_.request().noise = NoiseOf(problem);
+  bodies_.failures = kFailures;
+  bodies_.steps = start != nullptr ? kStepsFromStart : BodyNewton::kSteps;
   if (start == nullptr) {
     FromNothing(problem, answer);
   } else if (IsAtRestWithoutForces(problem)) {
     answer.f.setZero(problem.rows());
     answer.outcome = Outcome::kSolved;
   } else {
-    bodies_.failures = kFailures;
-    bodies_.steps = kStepsFromStart;
     answer.outcome = bodies_.Run(problem, start).outcome;
     answer.f = bodies_.f();
     // Where something slips, no better forces are asked for from nothing.
@@ -245,8 +245,6 @@ void SceneSolver::Methods::FromNothing(const FactoredProblem<double>& problem, S
   if (!(error <= kLooseResidual) || pressing > kMostPressing || error * pressing > kMostMissed) return;
   answer.outcome = Outcome::kSolved;
   if (!interior_.IsStrict() && NothingSlips(problem, answer.f, interior_.a())) {
-    bodies_.failures = kFailures;
-    bodies_.steps = BodyNewton::kSteps;
     if (bodies_.Run(problem).outcome == Outcome::kSolved) {
       answer.f = bodies_.f();
       return;

@@ -72,10 +72,9 @@ bool RefineAgainst(const ExactProblem& problem, OnPolygons& run, int bits) {
   bool added = false;
   ForEachContact(problem, [&](int i, int row, int) {
     const bool slips = run.word[i].law == Law::kCorner || run.word[i].law == Law::kEdge;
-    if (slips) {
-      const Planar<Rational> a = TangentialOf(run.answer.a, row);
-      added = run.polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
-    }
+    if (!slips) return;
+    const Planar<Rational> a = TangentialOf(run.answer.a, row);
+    added = run.polygons[i].Insert(NearDirection({Rational(-a[0]), Rational(-a[1])}, bits)) || added;
   });
   return added;
 }
