@@ -15,7 +15,7 @@ constexpr int kHalvings = 6;  // of a step that does not make R smaller
 
 RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 3, kMostIdle = 10;  // points that gain nothing: enough of a solution; of none
+  constexpr int kIdle = 3, kMostIdle = 10;  // points that gain nothing, with a solution and without
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
   // The error of a start may cost as much as a step.
