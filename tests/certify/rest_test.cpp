@@ -9,6 +9,7 @@
 #include "certify/exact/hypothesis.h"
 #include "certify/exact/verify_solution.h"
 #include "certify/request/solve_in.h"
+#include "solver/problem/gate.h"
 #include "tests/support.h"
 
 namespace stiction {
@@ -91,6 +92,20 @@ ExactProblem Pinched(const Rational& mu, const Rational& n, const Rational& x, c
     problem.A(k, k) = problem.A(k + 3, k + 3) = problem.A(k, k + 3) = problem.A(k + 3, k) = 1;
   problem.b = Vector({-n, x, y, -n, x, y});
   return problem;
+}
+
+TEST_CASE("rest: over doubles by forces that doubles find, where rounding leaves none that are exact") {
+  int rests = 0;
+  for (int index = 0; index < Few(400); ++index) {
+    CAPTURE(index);
+    const auto problem = Random<double>(GeneratorId::kBodies, 2, index);
+    const Solution solution = SolveDoubles(problem, {.arithmetic = Arithmetic::kDouble});
+    const auto& answer = std::get<InexactAnswer>(solution.answer);
+    if (!answer.Solved() || !answer.moves_elsewhere) continue;
+    ++rests;
+    CHECK(BoundErrors(problem, FrictionLaw::kCoulomb, answer.f, GateOf<double>()).Largest() <= 1e-8);
+  }
+  CHECK(rests > Few(400) / 40);  // 1 in 100 have exact ones
 }
 
 TEST_CASE("rest: in space up to the circle, past the corners of the first polygon") {
