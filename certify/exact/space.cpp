@@ -11,21 +11,23 @@
 namespace stiction {
 namespace {
 
-// What a point of Newton's method says that every contact does.
+// What a point of Newton's method says that every contact does, each direction in its own unit.
 std::vector<SpaceMode> ModesNear(const ExactProblem& problem, const ExactVector& f, const ExactVector& a) {
   std::vector<SpaceMode> modes;
-  Rational max_A = 0;
-  for (int i = 0; i < problem.rows(); ++i) max_A = std::max<Rational>(max_A, problem.A(i, i));
-  const Rational r = max_A > 0 ? Rational(1 / max_A) : Rational(1);
+  const auto step = [&problem](int row, int other) -> Rational {
+    const Rational& own = std::max(problem.A(row, row), problem.A(other, other));
+    return own > 0 ? Rational(1 / own) : Rational(1);
+  };
   ForEachContact(problem, [&](int i, int row, int) {
     const Contact<Rational>& contact = problem.contacts[i];
     SpaceMode mode = {Law::kFree, {Rational(0), Rational(0)}};
     if (contact.kind == ContactKind::kBilateral) {
       mode.law = Law::kHold;
-    } else if (f[row] <= r * a[row]) {
+    } else if (f[row] <= step(row, row) * a[row]) {
       mode.law = Law::kBreak;
     } else if (contact.kind == ContactKind::kStatic && contact.mu > 0) {
       const Planar<Rational> friction = TangentialOf(f, row), slip = TangentialOf(a, row);
+      const Rational r = step(row + 1, row + 2);
       const Planar<Rational> target = {Rational(friction[0] - r * slip[0]),
                                        Rational(friction[1] - r * slip[1])};
       const Rational limit = contact.mu * f[row];
@@ -91,10 +93,7 @@ bool TryCoulomb(const ExactProblem& problem, const ContactProblem<double>& round
   consider(run.answer.f);
   if (const auto near = NewtonPoint(rounded, run.answer.f)) consider(SolveNear(problem, *near));
   if (answer.Solved() && *answer.bound < EnoughBound()) consider(Turned(problem, answer.f));
-  if (answer.bound >= EnoughBound()) return true;
-  int bits = 4 + 2 * run.refinements;  // a corner of so few may be there already
-  while (bits < 50 && !RefineAgainst(problem, run, bits)) bits += 2;
-  return bits >= 50;
+  return answer.bound >= EnoughBound() || !RefineAgainst(problem, run, 4 + 2 * run.refinements);
 }
 
 }  // namespace

@@ -229,14 +229,17 @@ TEST_CASE("space: b out of range ends in a ray, or is solved all the same") {
   CHECK(DecideExistence(wedge, {.law = FrictionLaw::kBaraff}).certificate);
 }
 
-TEST_CASE("space: a slip next to a corner of the first polygon is told from it") {
-  // Of a 16-gon the corner (0, -1) is off by 1e-5; so is the nearest direction of four places.
-  ExactProblem problem = OneContact(Rational(4095), {-31250, 0, 1});
-  problem.A = Matrix({{2147483647, 1, 0}, {1, 1, 0}, {0, 0, 1}});
-  for (const SpaceEngine engine : {SpaceEngine::kComplete, SpaceEngine::kLemke}) {
-    const ExactAnswer answer = SolveInSpace(problem, {}, engine);
-    CHECK(answer.Solved());
-    CHECK(*answer.bound >= EnoughBound());
+TEST_CASE("space: modes near forces are told in units of each direction, however large A is in the others") {
+  ExactProblem next_to_corner = OneContact(Rational(4095), {-31250, 0, 1});
+  next_to_corner.A = Matrix({{2147483647, 1, 0}, {1, 1, 0}, {0, 0, 1}});
+  ExactProblem on_edge = OneContact(Rational(333333), {-126976, 0, 1});
+  on_edge.A = Matrix({{62277025792, 0, 0}, {0, 1, 1}, {0, 1, 2}});
+  for (const ExactProblem& problem : {next_to_corner, on_edge}) {
+    for (const SpaceEngine engine : {SpaceEngine::kComplete, SpaceEngine::kLemke}) {
+      const ExactAnswer answer = SolveInSpace(problem, {}, engine);
+      CHECK(answer.Solved());
+      CHECK(answer.counters[Counter::kRefinements] == 0);
+    }
   }
 }
 
