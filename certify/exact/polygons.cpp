@@ -9,11 +9,13 @@
 #include "certify/exact/lemke_space.h"
 #include "certify/exact/linear_equations.h"
 #include "certify/exact/verify_solution.h"
+#include "solver/problem/units.h"
+#ifndef STICTION_BOOST_RATIONALS
 #include "certify/exact/wide_ball.h"
 #include "corpus/lifting.h"
 #include "corpus/rounded.h"
 #include "solver/complete/complete.ipp"
-#include "solver/problem/units.h"
+#endif
 
 namespace stiction {
 
@@ -91,6 +93,8 @@ ModeSystem MakeSystem(const ExactProblem& problem, const std::vector<SpaceMode>&
   return system;
 }
 
+#ifndef STICTION_BOOST_RATIONALS
+
 // Of cells of polygons, where their equations have one solution.
 std::optional<ExactVector> SolveCells(const ExactProblem& problem, const CellWord& word,
                                       const RationalPolygons& polygons) {
@@ -139,6 +143,8 @@ std::optional<OnPolygons> RunOverBalls(const ExactProblem& problem, const Ration
   return run;
 }
 
+#endif
+
 }  // namespace
 
 std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::vector<SpaceMode>& modes,
@@ -150,12 +156,12 @@ std::optional<ExactVector> SolveModes(const ExactProblem& problem, const std::ve
 
 OnPolygons RunSpace(const ExactProblem& problem, RationalPolygons polygons, const Limits& limits,
                     Trace<Rational>* trace) {
-  if (trace == nullptr) {
-    if (auto run = RunOverBalls(problem, polygons, limits)) {
-      run->polygons = std::move(polygons);
-      return *std::move(run);
-    }
+#ifndef STICTION_BOOST_RATIONALS
+  if (auto run = trace == nullptr ? RunOverBalls(problem, polygons, limits) : std::nullopt) {
+    run->polygons = std::move(polygons);
+    return *std::move(run);
   }
+#endif
   CompleteDriving<Rational> driving({.limits = limits});
   OnPolygons run = {AnswerOf<Rational>(driving.Run(problem, polygons, trace)), driving.word(),
                     std::move(polygons)};

@@ -180,7 +180,7 @@ TEST_CASE("interior point: a path that turns back is followed to its end") {
     const RunEnd<> end = method.Run(problem);
     INFO(name);
     CHECK(end.outcome == Outcome::kSolved);
-    CHECK(end.statistics[Counter::kStarts] == 4);  // the first that goes by the curve's length
+    CHECK(end.statistics[Counter::kStarts] == 3);  // the first that goes by the curve's length
     CHECK(method.error() <= 1e-8);
   }
 }
