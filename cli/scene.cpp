@@ -496,7 +496,8 @@ const ListedVerb kDrawVerb("Show", 40, [](CommandLine& program) {
       "Contacts by the numbers of `assemble --explain`, each with its cone of friction; forces and gravity, to "
       "the "
       "scale below; joints as pins.";
-  verb.Prints(o.json, "a picture", "{written: written, contacts: integer, forces: integer, undecided: integer}");
+  verb.Prints(o.json, "a picture",
+              "{written: written, contacts: integer, forces: integer, undecided: integer}");
 });
 
 }  // namespace stiction

@@ -54,7 +54,7 @@ FEATURES = {  # that came later: their commits, and the most lines that they may
     "suspicions told by balls": ("84438361", 140),
     "lifting, and a stop everywhere": ("d199f604 06783930 427eac08 25c5070a", 400),
     "suspicions, sooner": ("77847fc4 33c8a7cf c07c58fe", 130),
-    "campaigns, sooner": ("9014a670 4d13d672 abeb7739 ddb0b1e9 033c56c8", 130),
+    "campaigns, sooner": ("9014a670 4d13d672 abeb7739 ddb0b1e9 033c56c8 46ebeb27", 130),
     "bench of scenes in motion": ("73f825cd 3fd69fbf 9b10ba86", 405),
     "certificates from factors": ("1b08c91f", 400)}
 JSON_HEADERS = ("nlohmann/json.hpp",)
