@@ -15,7 +15,8 @@ constexpr int kHalvings = 6;  // of a step that does not make R smaller
 
 RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 3, kMostIdle = 10;  // points that gain nothing, with a solution and without
+  constexpr int kIdle = 3;  // points that gain nothing before a solution is good enough
+  const int most_idle = start != nullptr ? 10 : points;  // before it is too far off
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
   // The error of a start may cost as much as a step.
@@ -35,7 +36,7 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
     }
     if (request_.limits.Stopped()) break;
     if (verdict_.statistics[Counter::kPoints] == points || eps_ > kHopeless ||
-        idle >= (is_good ? kIdle : kMostIdle)) {
+        idle >= (is_good ? kIdle : most_idle)) {
       if (is_good) break;
       verdict_.reason = eps_ > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;

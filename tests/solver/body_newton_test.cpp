@@ -117,7 +117,7 @@ TEST_CASE("body newton: from a start that is far off it begins as from none") {
   CHECK(from_start > 95);  // 84 if it raised eps by and by
 }
 
-TEST_CASE("body newton: points that gain nothing come to an end, also where no forces are good enough") {
+TEST_CASE("body newton: from a start, points that gain nothing come to an end where no forces are good enough") {
   // Any force misses a millionth of what acts: two rows want different velocities of one body.
   Eigen::MatrixXd J(2, 1);
   J << 1, 1;
@@ -125,7 +125,8 @@ TEST_CASE("body newton: points that gain nothing come to an end, also where no f
       InFactors(2, std::vector<Contact<double>>(2, {ContactKind::kBilateral, 0.0, {0, 0}}), J,
                 Eigen::VectorXd::Constant(1, -1), Eigen::Vector2d(0, 1e-6));
   BodyNewton method;
-  const RunEnd<> verdict = method.Run(problem);
+  const Eigen::VectorXd start = Eigen::Vector2d::Ones();
+  const RunEnd<> verdict = method.Run(problem, &start);
   CHECK(verdict.outcome == Outcome::kUndecided);
   CHECK(verdict.statistics[Counter::kPoints] < 30);
 }
