@@ -117,7 +117,8 @@ TEST_CASE("body newton: from a start that is far off it begins as from none") {
   CHECK(from_start > 95);  // 84 if it raised eps by and by
 }
 
-TEST_CASE("body newton: from a start, points that gain nothing come to an end where no forces are good enough") {
+TEST_CASE(
+    "body newton: from a start, points that gain nothing come to an end where no forces are good enough") {
   // Any force misses a millionth of what acts: two rows want different velocities of one body.
   Eigen::MatrixXd J(2, 1);
   J << 1, 1;
