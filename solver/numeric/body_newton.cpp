@@ -15,7 +15,8 @@ constexpr int kHalvings = 6;  // of a step that does not make R smaller
 
 RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
   Start(problem, start);
-  constexpr int kIdle = 3, kIdleFromStart = 10;  // points that gain nothing, with a solution and without
+  constexpr int kIdle = 3;                          // points that gain nothing before a solution is good enough
+  const int most = start != nullptr ? 10 : points;  // before a start is too far off
   constexpr double kHopeless = 1e4;
   eps_ = start != nullptr ? warm_eps : kFirstEps;
   // The error of a start may cost as much as a step.
@@ -34,10 +35,8 @@ RunEnd<> BodyNewton::Run(const Problem& problem, const Vector* start) {
       return verdict_;
     }
     if (request_.limits.Stopped()) break;
-    if (verdict_.statistics[Counter::kPoints] == points || eps_ > kHopeless ||
-        idle >= (is_good            ? kIdle
-                 : start != nullptr ? kIdleFromStart
-                                    : points)) {
+    const std::int64_t tried = verdict_.statistics[Counter::kPoints];
+    if (tried == points || eps_ > kHopeless || idle >= (is_good ? kIdle : most)) {
       if (is_good) break;
       verdict_.reason = eps_ > kHopeless ? "Newton's method settles for no eps" : "too many proximal points";
       return verdict_;
