@@ -21,7 +21,7 @@ HEADERS = {"boost": "/usr/include/boost", "Eigen": "/usr/include/eigen3/Eigen", 
 EMBEDDED = {"solver/complete/cells.json": "kCellsJson"}  # as the build embeds them (embed in CMakeLists.txt)
 # Of the module, and of a check.
 OF_BOTH = ["-std=c++20", "-DNDEBUG", "-DSTICTION_BOOST_RATIONALS", "-DEIGEN_MPL2_ONLY", "-DFMT_HEADER_ONLY", "-I", ROOT, "-I", "."]
-COMPILE = [*OF_BOTH, "-O2", "-fno-rtti", "-fwasm-exceptions", "-isystem", "headers", f"-ffile-prefix-map={ROOT}/="]
+COMPILE = [*OF_BOTH, "-O2", "-fwasm-exceptions", "-isystem", "headers", f"-ffile-prefix-map={ROOT}/="]
 LINK = ["-O2", "-fwasm-exceptions", "--no-entry", "-sSTANDALONE_WASM", "-sFILESYSTEM=0", "-sALLOW_MEMORY_GROWTH",
         "-sMAXIMUM_MEMORY=1GB"]
 

@@ -359,8 +359,8 @@ void AddSizes(const ExactFactors& factors, const ExactProblem::Vector& f, std::v
   const double share = std::ldexp(static_cast<double>(J.rows() + J.cols() + 8), -51);
   const Rows A = JW * J.transpose();
   const Eigen::VectorXd sums = A.cwiseAbs() * forces - share * all;
-  bool fits =
-      sums.allFinite() && std::ranges::all_of(all, [](double x) { return x == 0 || (x > kTiny && x < kHuge); });
+  const auto sizes = all.array();
+  bool fits = sums.allFinite() && (sizes == 0 || (sizes > kTiny && sizes < kHuge)).all();
   for (int j = 0; j < f.size(); ++j) fits = fits && (f[j] == 0 || forces[j] > kTiny);
   if (!fits) return AddSizes<ExactFactors, ExactProblem::Vector, Rational>(factors, f, size);
   for (int i = 0; i < sums.size(); ++i) size[i] += Rational(std::max(sums[i], 0.0));

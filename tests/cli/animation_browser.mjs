@@ -48,10 +48,10 @@ test('frames are stepped by keys, buttons, slider and address', async () => {
 
 test('playing goes to the last frame, and stops there', async () => {
   await opened('plane', async page => {
-    await page.selectOption('#player select', '4');
     await page.evaluate(() => document.activeElement.blur());
     await page.keyboard.press(' ');
     await page.waitForSelector('button[aria-label="Pause"]');
+    await page.selectOption('#player select', '4');
     const last = (await dataOf(page)).frames.length - 1;
     await page.waitForFunction(last => Number(document.querySelector('#player input').value) === last, last);
     await page.waitForSelector('button[aria-label="Play"]');
