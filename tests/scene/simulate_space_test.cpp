@@ -286,6 +286,15 @@ TEST_CASE("simulate in space: from the forces of the step before as from f = 0")
   }
 }
 
+TEST_CASE("simulate in space: what slides goes on from the forces of the step before") {
+  for (const char* name : {"sledge-pushes-box", "trapdoor-opens"}) {
+    INFO(name);
+    SimulationInSpace simulation(Round(NamedFile(name).scene));
+    for (int i = 0; i < 60; ++i) simulation.Step();
+    CHECK(simulation.statistics().warm > 55);
+  }
+}
+
 // ---- Joints ----------------------------------------------------------------------------------
 
 struct Worst {
